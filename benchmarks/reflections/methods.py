@@ -117,6 +117,8 @@ METHODS = {
     "layers 35": Method({"parallax": "layers", "fetches": 35}),
     "plain, .5 m off": Method(shift=(0.3, 0.2, 0.346)),
     "layers 35, .5 m off": Method({"parallax": "layers", "fetches": 35}, shift=(0.3, 0.2, 0.346)),
+    "screen, plain": Method(screen=True),
+    "screen, distance 14": Method({"parallax": "distance", "fetches": 14}, screen=True),
     "screen, layers 14": Method({"parallax": "layers", "fetches": 14}, screen=True),
     "planar": Method(planar=True),
     "both sides, plain": Method(material=BOTH),

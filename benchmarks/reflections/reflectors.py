@@ -118,6 +118,16 @@ def _quad(world: World) -> list[cc.Node]:
     return [node]
 
 
+def _floor(world: World) -> list[cc.Node]:
+    """A floor of polished stone, seen from above: what stands on it is in the picture."""
+    ground = float(world.place.low[1]) + 0.004 - world.middle[1]
+    node = world.put(cc.Mesh.plane(6.0, 6.0), cc.MirrorMaterial(), (0, ground, 0))
+    world.camera.position = np.add(world.middle, (-0.6, 1.1, 2.9))
+    world.camera.look_at(np.add(world.middle, (0.1, 0.6 * ground, -0.9)))
+    world.camera.fov = 58
+    return [node]
+
+
 def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """The product of quaternions (w, x, y, z): first b, then a."""
     (w, x, y, z), (p, q, r, s) = a, b
@@ -139,5 +149,6 @@ REFLECTORS = {
     "glass": Reflector(_ball(lambda: cc.GlassMaterial(ior=1.5)), size=256, samples=48, bounces=4),
     "facing balls": Reflector(_facing_balls, bounces=8),
     "plane": Reflector(_quad, mirror=True),
+    "floor": Reflector(_floor, mirror=True),
     "facing planes": Reflector(_facing_planes, bounces=4),
 }

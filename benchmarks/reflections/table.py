@@ -27,6 +27,7 @@ GLASS = (
     "plain", "box", "distance 14", "layers 35",
     "both sides, plain", "both sides, box", "both sides, distance 14", "both sides, layers 35",
 )  # fmt: skip
+SCREEN = ("screen, plain", "screen, distance 14", "screen, layers 14")
 SHARED = ("plain, .5 m off", "layers 35, .5 m off")
 
 
@@ -78,11 +79,12 @@ class Row:
 
 def cases(*, quick: bool) -> list[Case]:
     """Give the rows of the table; the quick ones are those with a mark, without rough metal and glass."""
-    found = [Case("room_a", "mirror", m) for m in (*SINGLE, "screen, layers 14", *SHARED)]
+    found = [Case("room_a", "mirror", m) for m in (*SINGLE, *SCREEN, *SHARED)]
     found += [Case("room_b", "mirror", m) for m in (SOME if quick else SINGLE)]
     found += [Case("outdoor", "mirror", m) for m in (SOME if quick else SINGLE)]
     if not quick:
         found += [Case(p, "teapot", m) for p in ("room_a", "room_b") for m in SOME]
+        found += [Case("room_a", "teapot", m) for m in SCREEN]
         for reflector in ("glossy .2", "glossy .4"):
             found += [Case("room_a", reflector, m) for m in SOME]
         found += [Case("outdoor", "glossy .2", m) for m in SOME]
@@ -91,7 +93,11 @@ def cases(*, quick: bool) -> list[Case]:
             found += [
                 Case("room_a", "mirror", m, faces) for m in ("plain", "distance 14", "layers 35")
             ]
-    found += [Case("room_a", "plane", m) for m in ("plain", "box", "layers 35", "planar")]
+    found += [Case("room_a", "plane", m) for m in ("plain", "box", "layers 35", *SCREEN, "planar")]
+    found += [
+        Case("room_a", "floor", m)
+        for m in ("plain", "box", "distance 14", "layers 14", *SCREEN, "planar")
+    ]
     for bounces in (1, 2) if quick else (1, 2, 3):
         found += [
             Case("room_a", "facing balls", m, bounces=bounces)

@@ -113,12 +113,14 @@ std::shared_ptr<const SceneSnapshot> snapshot_of(const Scene& scene,
     });
 }
 
-PyFrame
-render(Renderer& renderer, const Scene& scene, const SeenBy& camera, const bindings::SizeLike& size,
-       const OutputNames& outputs, const FormatOrNone& format, const bindings::WholeNumber& samples,
-       bindings::Real exposure, const std::optional<bindings::Choice<tonemap_names>>& tonemap,
-       const std::optional<bindings::Choice<encode_names>>& encode,
-       const bindings::EffectsLike& effects, const bindings::DepthFormatName& depth_format) {
+PyFrame render(Renderer& renderer, const Scene& scene, const SeenBy& camera,
+               const bindings::SizeLike& size, const OutputNames& outputs,
+               const FormatOrNone& format, const bindings::WholeNumber& samples,
+               bindings::Real exposure,
+               const std::optional<bindings::Choice<tonemap_names>>& tonemap,
+               const std::optional<bindings::Choice<encode_names>>& encode,
+               const bindings::EffectsLike& effects, const bindings::DepthFormatName& depth_format,
+               bindings::Flag screen_reflections) {
     FrameOptions options;
     std::tie(options.width, options.height) = to_size(size);
     options.outputs = to_outputs(outputs);
@@ -129,6 +131,7 @@ render(Renderer& renderer, const Scene& scene, const SeenBy& camera, const bindi
     if (tonemap) options.tonemap = parse_tonemap(*tonemap);
     if (encode) options.encode = parse_encode(*encode);
     options.depth_format = bindings::to_depth_format(depth_format);
+    options.screen_reflections = screen_reflections;
     const auto seen = to_camera(camera);
     const auto snapshot = snapshot_of(scene, bindings::to_effects(effects));
     return PyFrame(bindings::with_notices([&] {
@@ -209,7 +212,8 @@ void bind_renderer(pybind11::module_& m) {
              py::arg("outputs") = py::tuple(), py::arg("format") = "rgba8", py::arg("samples") = 1,
              py::arg("exposure") = 0.0, py::arg("tonemap") = py::none(),
              py::arg("encode") = py::none(), py::arg("effects") = py::tuple(),
-             py::arg("depth_format") = "depth_component32f", docs::render)
+             py::arg("depth_format") = "depth_component32f", py::arg("screen_reflections") = false,
+             docs::render)
         .def("capture", &capture, py::arg("scene"),
              py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("size") = 256,
              py::kw_only(), py::arg("near") = 0.05, py::arg("far") = 1000.0,

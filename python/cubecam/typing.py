@@ -179,3 +179,4 @@ class RenderOptions(TypedDict, total=False):
     encode: Encode | None
     effects: Iterable[ImageEffect]
     depth_format: DepthFormat | None
+    screen_reflections: bool

@@ -2,6 +2,7 @@
 #if defined(ENVIRONMENT_FETCHES) || defined(BODY)
 #include "include/crossing.glsl"
 #endif
+#include "include/screen.glsl"
 
 layout(binding = 1) uniform samplerCube u_cube;
 
@@ -66,9 +67,10 @@ vec3 environment_from(vec3 from_origin, vec3 direction_world) {
 
 #include "include/planar_mirror.glsl"
 
-// The same at the surface, which may be a planar mirror.
+// The same at the surface, which may be a planar mirror; what the frame shows counts first.
 vec3 environment(vec3 direction_world) {
-    return or_planar_mirror(environment_from(v_position, direction_world), direction_world, 0.0, 0.0);
+    look_from_surface(direction_world, 0.0);
+    return or_screen(or_planar_mirror(environment_from(v_position, direction_world), direction_world, 0.0, 0.0));
 }
 
 #ifdef USES_ENVIRONMENT_MIPS
@@ -76,15 +78,16 @@ vec3 environment(vec3 direction_world) {
 layout(binding = 4) uniform samplerCube u_box_mipmaps;
 
 vec3 environment_mip(vec3 direction_world, float lod) {
+    // Half the width of a texel of this level, in the middle of a face whose half is 1 wide.
+    float spread = exp2(lod) / float(textureSize(u_box_mipmaps, 0).x);
+    look_from_surface(direction_world, spread);
     EnvironmentHit hit = environment_met(v_position, direction_world);
     float level = lod + log2(max(hit.spread, 1e-30));
     vec3 light = textureLod(u_box_mipmaps, hit.direction, level).rgb;
 #ifdef ENVIRONMENT_LAYERS
     if (hit.farthest) light = textureLod(u_farthest, hit.direction, level).rgb;
 #endif
-    // Half the width of a texel of this level, in the middle of a face whose half is 1 wide.
-    float spread = exp2(lod) / float(textureSize(u_box_mipmaps, 0).x);
-    return or_planar_mirror(environment_scaled(light), direction_world, spread, 0.0);
+    return or_screen(or_planar_mirror(environment_scaled(light), direction_world, spread, 0.0));
 }
 
 // Texels along an edge of level 0.
@@ -177,7 +180,8 @@ vec3 environment_filtered_from(vec3 from_origin, vec3 direction_world, float rou
 
 // The same at the surface, which may be a planar mirror.
 vec3 environment_filtered(vec3 direction_world, float roughness) {
+    look_from_surface(direction_world, screen_spread(roughness));
     vec3 light = environment_filtered_from(v_position, direction_world, roughness);
-    return or_planar_mirror(light, direction_world, planar_mirror_spread(roughness), 0.0);
+    return or_screen(or_planar_mirror(light, direction_world, planar_mirror_spread(roughness), 0.0));
 }
 #endif

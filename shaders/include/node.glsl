@@ -8,7 +8,7 @@ layout(location = 8) in vec4 a_normal_matrix[3];  // columns
 layout(location = 11) in vec4 a_material[MATERIAL_SIZE];
 #define u_material a_material
 #endif
-#ifdef OUTPUTS
+#if defined(OUTPUTS) || defined(SCREEN_REFLECTIONS)
 layout(location = 13) in ivec2 a_id_and_label;
 #define u_node_id a_id_and_label.x
 #define u_label a_id_and_label.y

@@ -90,7 +90,7 @@ float first_in_reach(vec3 start, vec3 end) {
     float free = 0.0;
     int below = 2 * (int(u_environment_distances.z) + 2);
     vec3 before = start;
-    for (int i = 1; i <= MARCH_PARTS; ++i) {
+    for (int i = 1; i <= (screen_knows() ? 0 : MARCH_PARTS); ++i) {
         float s = float(i) / float(MARCH_PARTS);
         vec3 after = mix(start, end, s);
         vec3 middle = normalize(before + after);
@@ -139,7 +139,7 @@ EnvironmentHit environment_met(vec3 from_origin, vec3 direction_world) {
     float free = first_in_reach(start, end);
     vec2 before = behind_surfaces(mix(start, end, free), free);
     float last = free;
-    bool found = false;
+    bool found = screen_knows();
     int step = 0;
     while (!found && step < MARCH_STEPS) {
         bool near_one = false;

@@ -27,19 +27,26 @@ vec3 eye_position() { return v_eye.xyz + u_origin.xyz; }
 // The environment at a chosen level of detail; 0 is the finest. The levels of a filtered environment are those of its
 // roughnesses.
 vec3 environment_lod(vec3 direction_world, float level) {
+#ifdef ENVIRONMENT_FILTERED
+    look_from_surface(direction_world, screen_spread(level / float(max(u_environment_levels.x - 1, 1))));
+#else
+    // Half the width of a texel of this level.
+    look_from_surface(direction_world, level <= 0.0 ? 0.0 : exp2(level) / float(textureSize(u_cube, 0).x));
+#endif
     EnvironmentHit hit = environment_met(v_position, direction_world);
 #ifdef ENVIRONMENT_FILTERED
     vec3 light = environment_scaled(environment_seen(hit.direction, level));
 #else
     vec3 light = environment_scaled(textureLod(u_cube, hit.direction, level).rgb);
 #endif
-    return or_planar_mirror(light, direction_world, 0.0, level);
+    return or_screen(or_planar_mirror(light, direction_world, 0.0, level));
 }
 
 // The light that reaches a world position from a direction: `environment` for another place than the surface. What a planar
 // mirror shows belongs to its surface.
 vec3 environment_at(vec3 position_world, vec3 direction_world) {
-    return environment_from(position_world - u_origin.xyz, direction_world);
+    look_at_screen(position_world - u_origin.xyz, direction_world, 0.0);
+    return or_screen(environment_from(position_world - u_origin.xyz, direction_world));
 }
 
 #ifdef USES_FILTERED_ENVIRONMENT

@@ -25,9 +25,14 @@ STAGE vec2 v_uv1;
 #ifdef USES_TANGENT
 STAGE vec4 v_tangent;  // world, any length
 #endif
-#if (defined(SHOWS_BEHIND) && !defined(BEHIND_CUBE)) || (defined(PLANAR_MIRROR) && !defined(PLANAR_MIRROR_CUBE))
+#if (defined(SHOWS_BEHIND) && !defined(BEHIND_CUBE)) || (defined(PLANAR_MIRROR) && !defined(PLANAR_MIRROR_CUBE)) || \
+    defined(SCREEN_REFLECTIONS)
 flat STAGE vec4 v_clip_rows[3];  // from a position to x, y and w in the view's clip space
 flat STAGE float v_layer;        // of the view
+#endif
+#ifdef SCREEN_REFLECTIONS
+flat STAGE vec4 v_clip_depth;  // from a position to w times the depth
+flat STAGE int v_node_id;
 #endif
 #ifdef HAS_VERTEX_COLORS
 STAGE vec4 v_color;

@@ -94,12 +94,17 @@ void main() {
     // A matrix that mirrors turns the cross product of normal and tangent round.
     v_tangent = vec4(mat3(u_model) * a_tangent.xyz, determinant(mat3(u_model)) < 0.0 ? -a_tangent.w : a_tangent.w);
 #endif
-#if (defined(SHOWS_BEHIND) && !defined(BEHIND_CUBE)) || (defined(PLANAR_MIRROR) && !defined(PLANAR_MIRROR_CUBE))
+#if (defined(SHOWS_BEHIND) && !defined(BEHIND_CUBE)) || (defined(PLANAR_MIRROR) && !defined(PLANAR_MIRROR_CUBE)) || \
+    defined(SCREEN_REFLECTIONS)
     v_layer = a_view_forward.w;
     mat4 rows = transpose(a_view_matrix);
     v_clip_rows[0] = rows[0];
     v_clip_rows[1] = rows[1];
     v_clip_rows[2] = rows[3];
+#endif
+#ifdef SCREEN_REFLECTIONS
+    v_clip_depth = transpose(a_view_matrix)[2];
+    v_node_id = u_node_id;
 #endif
 #ifdef HAS_VERTEX_COLORS
     v_color = a_color;

@@ -99,6 +99,12 @@ depth_format : str or None
     "depth_component16", "depth24_stencil8", "depth32f_stencil8", "stencil_index8" (no depth) or None (neither). Without
     a depth buffer no node hides another: nodes are painted one over the other, in order of ``render_order``, then id,
     and "stencil" is the only output.
+screen_reflections : bool
+    True: what mirrors, glass and shiny surfaces reflect is looked up in the picture itself first, by its depths, and in
+    the environment or the probe where the picture does not show it. Default False. It sharpens what probes show near
+    their mirrors, and where a frame shows nothing, since it is hidden or out of view, nothing changes. Blended surfaces
+    are not found; surfaces with a `PlanarMirror`, captures, probes, render textures and what a pane of transmissive
+    material shows do without. It needs a colour and a depth buffer, and draws the nodes twice.
 
 Returns
 -------
@@ -111,7 +117,7 @@ Raises
 ValueError
     For an unknown name, a size or sample count beyond the driver's limits, formats that the driver cannot draw into,
     outputs that ``depth_format`` does not allow, an exposure that is not from -64 to 64, tone mapping or effects with
-    ``format=None``, or a camera without a valid view.
+    ``format=None``, ``screen_reflections`` without a colour or a depth buffer, or a camera without a valid view.
 ContextError
     After :meth:`close`, or in a forked process.
 

@@ -31,6 +31,15 @@ void check_buffers(const FrameOptions& options) {
         throw std::invalid_argument("exposure: expected -64 to 64 stops, got " +
                                     std::to_string(options.exposure));
     }
+    if (options.screen_reflections && !options.color) {
+        throw std::invalid_argument(
+            "screen_reflections: expected False without a colour, got True and format None");
+    }
+    if (options.screen_reflections && !has_depth(options.depth_format)) {
+        throw std::invalid_argument("screen_reflections: expected False without a depth buffer, "
+                                    "got True and depth_format " +
+                                    std::string(to_string(options.depth_format)));
+    }
     if (options.color) return;
     if (options.tonemap != Tonemap::none || options.encode != Encode::none ||
         options.exposure != 0.0) {

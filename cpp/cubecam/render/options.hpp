@@ -39,6 +39,8 @@ struct FrameOptions {
     Encode encode = Encode::none;
     bool color = true;  ///< false: no colour buffer, only outputs; `format` is ignored
     DepthFormat depth_format = DepthFormat::depth_component32f;
+    /// What surfaces reflect is looked up in a picture of the same views first.
+    bool screen_reflections = false;
 };
 
 struct CaptureOptions {

@@ -350,7 +350,8 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
             views.push_back(camera_view(matrices(camera, aspect)));
         }
         FrameContext frame(gpu, scene);
-        frame.draw(std::move(views), target, seen_by_all, {}, post_process);
+        frame.draw(std::move(views), target, seen_by_all, {}, post_process,
+                   options.screen_reflections);
         stats_ = frame.stats;
         Frame drawn = read_frame(gpu.context, target, *gpu.results, gpu.read_buffer);
         drawn.tonemapped = post_process.tonemap != Tonemap::none;

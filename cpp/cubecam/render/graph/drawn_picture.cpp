@@ -122,6 +122,9 @@ std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& l
                 picture.textures.push_back(texture.revision);
             }
             if (found.behind.texture != 0) picture.textures.push_back(found.behind.revision);
+            if (found.screen.depths != 0) {
+                picture.textures.push_back(found.screen.picture.revision);
+            }
             key.texture_count =
                 static_cast<std::uint32_t>(picture.textures.size()) - key.first_texture;
             picture.nodes.push_back(key);

@@ -5,6 +5,7 @@
 #include "cubecam/render/graph/picture_kind.hpp"
 #include "cubecam/render/graph/planar_mirror_picture.hpp"
 #include "cubecam/render/graph/probe_picture.hpp"
+#include "cubecam/render/graph/screen_picture.hpp"
 #include "cubecam/render/graph/shadow_picture.hpp"
 #include "cubecam/render/graph/texture_picture.hpp"
 
@@ -57,8 +58,9 @@ bool FrameContext::counts_no_calls() const {
 
 void FrameContext::draw(std::vector<View> views, Target& target,
                         std::function<bool(const NodeSnapshot&)> wanted, Key wanted_key,
-                        PostProcess post_process) {
+                        PostProcess post_process, bool screen_reflections) {
     Key request = std::move(wanted_key);
+    request.add(screen_reflections);
     for (const View& view : views) add_view(request, view);
     add_grading(request, post_process);
     const std::optional<UnchangedCall>& last = target.unchanged;
@@ -70,7 +72,7 @@ void FrameContext::draw(std::vector<View> views, Target& target,
     target.unchanged.reset();
     pictures.add(frame_id(),
                  std::make_unique<FramePicture>(*this, std::move(views), target, std::move(wanted),
-                                                std::move(post_process)));
+                                                std::move(post_process), screen_reflections));
     update({frame_id()});
     if (stats.views_drawn == 0 && stats.shadow_views_drawn == 0 && counts_no_calls()) {
         target.unchanged = {scenes.revision, gpu.contents, std::move(request), stats.views_skipped};
@@ -148,6 +150,7 @@ std::unique_ptr<Picture> FrameContext::make(const PictureId& id) {
         case PictureKind::texture: return std::make_unique<TexturePicture>(*this, id);
         case PictureKind::shadow: return std::make_unique<ShadowPicture>(*this, id);
         case PictureKind::behind: return std::make_unique<BehindPicture>(*this, id);
+        case PictureKind::screen: return std::make_unique<ScreenPicture>(*this, id);
         case PictureKind::planar_mirror:
             if (id.viewer->kind == id.kind && ++mirror_pictures_ > most_mirror_pictures) {
                 throw std::invalid_argument(

@@ -34,10 +34,11 @@ public:
     /// Draws `views` of the nodes for which `wanted` is true into `target`, after the pictures that
     /// they depend on.
     ///
-    /// `wanted_key` differs whenever `wanted` selects other nodes.
+    /// `wanted_key` differs whenever `wanted` selects other nodes. `screen_reflections`: what
+    /// surfaces reflect is looked up on the screen first.
     void draw(std::vector<View> views, Target& target,
               std::function<bool(const NodeSnapshot&)> wanted, Key wanted_key,
-              PostProcess post_process = {});
+              PostProcess post_process = {}, bool screen_reflections = false);
 
     /// Draws these probes of the first scene, whether they are due or not, after the pictures that
     /// they depend on.

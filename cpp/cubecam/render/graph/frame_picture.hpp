@@ -11,13 +11,17 @@ namespace cubecam {
 /// picture looks it up.
 class FramePicture final : public ScenePicture {
 public:
+    /// `screen_reflections`: rays that its surfaces reflect are looked up on the screen first.
     FramePicture(FrameContext& context, std::vector<View> views, Target& target,
-                 std::function<bool(const NodeSnapshot&)> wanted, PostProcess post_process);
+                 std::function<bool(const NodeSnapshot&)> wanted, PostProcess post_process,
+                 bool screen_reflections);
 
     bool sees(const NodeSnapshot& node) const override { return wanted_(node); }
     TargetDescription describe() const override { return target_.description(); }
     Target::Behind& kept_behind() override { return target_.behind; }
     Target::Mirrors& kept_mirrors() override { return target_.mirrors; }
+    ScreenTextures screen() override;
+    Target::Screen& kept_screen() { return target_.screen; }
 
     std::vector<PictureId> possible_dependencies() override;
     std::vector<PictureId> dependencies() override;
@@ -30,6 +34,7 @@ private:
     Target& target_;
     const std::function<bool(const NodeSnapshot&)> wanted_;
     const PostProcess post_process_;
+    const bool screen_reflections_;
 };
 
 }  // namespace cubecam

@@ -6,7 +6,15 @@ namespace cubecam {
 
 /// The kinds of pictures, in the order in which messages search for the picture to name. A new kind
 /// (a filtered cube) gets the next number; FrameContext::make makes its pictures.
-enum class PictureKind : std::uint8_t { probe, texture, shadow, frame, behind, planar_mirror };
+enum class PictureKind : std::uint8_t {
+    probe,
+    texture,
+    shadow,
+    frame,
+    behind,
+    planar_mirror,
+    screen
+};
 
 inline PictureId probe_id(std::size_t scene, std::size_t probe, std::size_t bounce = 0) {
     return {PictureKind::probe, scene, probe, bounce, nullptr};
@@ -27,6 +35,11 @@ inline PictureId frame_id() { return {PictureKind::frame, 0, 0, 0, nullptr}; }
 /// What lies behind the transmissive surfaces of another picture.
 inline PictureId behind_id(const PictureId& viewer) {
     return {PictureKind::behind, viewer.scene, 0, 0, std::make_shared<const PictureId>(viewer)};
+}
+
+/// What reflections in another picture find on the screen.
+inline PictureId screen_id(const PictureId& viewer) {
+    return {PictureKind::screen, viewer.scene, 0, 0, std::make_shared<const PictureId>(viewer)};
 }
 
 /// What another picture sees in a planar mirror; `mirror` is its place in FrameContext::mirrors.

@@ -7,6 +7,7 @@
 #include "cubecam/render/passes/bounce_change_pass.hpp"
 #include "cubecam/render/passes/distance_pass.hpp"
 #include "cubecam/render/passes/post_process_pass.hpp"
+#include "cubecam/render/passes/screen_depth_pass.hpp"
 #include "cubecam/render/passes/shadow_pass.hpp"
 #include "cubecam/render/passes/surface_pass.hpp"
 #include "cubecam/render/resources/filtered_cubes.hpp"
@@ -157,6 +158,7 @@ struct RendererState {
           post_process(its_context.gl(), cache, surface.programs()),
           shadows(its_context, cache, surface.programs()),
           distances(its_context, cache, surface.programs()),
+          screen_depths(its_context, cache, surface.programs()),
           bounce_changes(its_context, cache, surface.programs()),
           bodies(its_context, cache, surface.programs()), targets(cache_bytes),
           results(std::make_shared<ResultPool>(cache_bytes)) {}
@@ -175,6 +177,7 @@ struct RendererState {
     PostProcessPass post_process;
     ShadowPass shadows;
     DistancePass distances;
+    ScreenDepthPass screen_depths;
     BounceChangePass bounce_changes;
     BodyPass bodies;
     TargetStore targets;

@@ -9,6 +9,15 @@
 #include <utility>
 
 namespace cubecam {
+namespace {
+
+/// Whether rays from a node may be looked up on the screen.
+bool reflects_environment(const NodeSnapshot& node) {
+    return node.material.value.traits().uses_environment &&
+           !std::holds_alternative<PlanarMirrorIndex>(node.environment);
+}
+
+}  // namespace
 
 ScenePicture::ScenePicture(FrameContext& context, PictureId id, std::size_t scene)
     : context_(context), id_(std::move(id)), number_(scene), scene_(context.scenes.scene(scene)) {}
@@ -76,7 +85,7 @@ Dependencies ScenePicture::possible() {
     const auto wanted = [this](const NodeSnapshot& node) { return sees(node); };
     const SceneContents& contents = context_.contents(number_);
     Dependencies shown = contents.shown(wanted);
-    if (contents.shows_behind(wanted)) shown.push_back(behind_id(id_));
+    if (contents.shows_behind(wanted)) shown.push_back(behind_id(mirror_viewer()));
     // What mirrors in mirrors show, the first mirrors may show, too.
     if (mirrors_met() == 0) {
         for (std::size_t m = 0; m < context_.mirrors(number_).all().size(); ++m) {
@@ -99,6 +108,8 @@ Dependencies ScenePicture::plan(std::vector<View> views, const TargetDescription
     const bool shadows = has_shadows(scene_);
     shows_shadows_ = false;
     shows_behind_ = false;
+    reflects_ = false;
+    reflects_by_level_ = false;
     mirror_bounds_.clear();
     const bool mirrors = target.color && !context_.mirrors(number_).all().empty();
     const std::vector<Rect> through = mirrors ? windows() : std::vector<Rect>();
@@ -107,10 +118,16 @@ Dependencies ScenePicture::plan(std::vector<View> views, const TargetDescription
         add_dependencies(scene_, number_, node, shown);
         shows_shadows_ = shows_shadows_ || (shadows && receive_shadow(node));
         shows_behind_ = shows_behind_ || (target.color && shows_behind(node));
+        if (target.color && reflects_environment(node)) {
+            const EnvironmentParts& parts = node.material.value.traits().environment_parts;
+            reflects_ = true;
+            reflects_by_level_ =
+                reflects_by_level_ || parts.filtered || parts.mipmaps || parts.filtered_if_made;
+        }
         if (mirrors) add_mirror(planned, through, {target.width, target.height});
     });
     shown = context_.with_shown_probes(id_, number_, shown);
-    if (shows_behind_) shown.push_back(behind_id(id_));
+    if (shows_behind_) shown.push_back(behind_id(mirror_viewer()));
     const Dependencies mirrored = mirror_pictures();
     shown.insert(shown.end(), mirrored.begin(), mirrored.end());
     if (shows_shadows_) add_shadows(scene_, number_, shown);

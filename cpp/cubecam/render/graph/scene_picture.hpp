@@ -39,10 +39,17 @@ public:
         return mirror_bounds_[mirror];
     }
 
+    /// Whether a planned node reflects an environment, without a planar mirror.
+    bool reflects() const { return reflects_; }
+    /// Whether such a node looks light up by roughness.
+    bool reflects_by_level() const { return reflects_by_level_; }
+
     const std::vector<View>& views() const { return views_; }
     std::size_t scene_number() const { return number_; }
     /// What the transmissive surfaces of this picture show; empty if it has none.
     BoundTexture behind();
+    /// Where the reflections of this picture are looked up first; empty: nowhere.
+    virtual ScreenTextures screen() { return {}; }
 
 protected:
     /// `scene` is the number of the scene that it shows.
@@ -58,7 +65,8 @@ protected:
     std::size_t draw_changed(Target& target, const PostProcess& post_process = {},
                              std::optional<Budget> budget = std::nullopt);
 
-    /// The picture whose planar mirrors this one shows: itself, or one of the same views.
+    /// The picture whose planar mirrors, and whose scene behind, this one shows: itself, or one of
+    /// the same views.
     virtual const PictureId& mirror_viewer() const { return id_; }
 
     FrameContext& context_;
@@ -78,6 +86,8 @@ private:
     std::vector<std::vector<Rect>> mirror_bounds_;  // by mirror and view; empty: it shows nothing
     bool shows_shadows_ = false;
     bool shows_behind_ = false;
+    bool reflects_ = false;
+    bool reflects_by_level_ = false;
 };
 
 }  // namespace cubecam

@@ -91,6 +91,9 @@ NodeTextures TextureLookup::find(const NodeSnapshot& node) {
     }
     if (material.shows_far_side) found.body = context_.gpu.bodies.get(*node.mesh, context_.stats);
     if (material.shows_behind) found.behind = context_.scene_picture(viewer_).behind();
+    if (material.uses_environment && !std::holds_alternative<PlanarMirrorIndex>(node.environment)) {
+        found.screen = context_.scene_picture(viewer_).screen();
+    }
     return found;
 }
 

@@ -30,8 +30,9 @@ int flat_lights(const SurfaceVariant& variant, const MaterialTraits& material, i
     taken += variant.tangents ? 1 : 0;
     const bool by_pixel =
         variant.behind == BehindLookup::flat || variant.planar == BehindLookup::flat;
-    taken += by_pixel ? 4 : 0;      // rows of a matrix; layer
-    taken += variant.body ? 4 : 0;  // a place; rows of a matrix
+    taken += by_pixel || variant.screen ? 4 : 0;  // rows of a matrix; layer
+    taken += variant.screen ? 2 : 0;              // a row of it; the node's id
+    taken += variant.body ? 4 : 0;                // a place; rows of a matrix
     taken += variant.clipped ? 1 : 0;
     taken += variant.vertex_colors ? 1 : 0;
     taken += variant.shadows > 0 ? 1 : 0;
@@ -156,8 +157,9 @@ void Programs::check_textures(const SurfaceVariant& variant, const MaterialTrait
     const auto shadows = static_cast<std::size_t>(variant.shadows);
     const std::size_t behind = variant.behind == BehindLookup::none ? 0U : 1U;
     const std::size_t planar = variant.planar == BehindLookup::none ? 0U : 1U;
+    const std::size_t screen = variant.screen ? 2U : 0U;
     const std::size_t body = variant.body ? 2U : 0U;
-    const std::size_t all = maps + environment + shadows + behind + planar + body;
+    const std::size_t all = maps + environment + shadows + behind + planar + screen + body;
     if (all <= most_textures_) return;
     throw std::invalid_argument(
         std::string(variant.kind->name) + ": expected at most " + std::to_string(most_textures_) +
@@ -166,6 +168,7 @@ void Programs::check_textures(const SurfaceVariant& variant, const MaterialTrait
         " of the environment, " + std::to_string(shadows) + " of shadows" +
         (behind == 0 ? "" : ", 1 of the scene behind") +
         (planar == 0 ? "" : ", 1 of the planar mirror") +
+        (screen == 0 ? "" : ", 2 of screen_reflections") +
         (body == 0 ? "" : ", 2 of the body's far side"));
 }
 
@@ -196,6 +199,10 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
     define(variant.body, "BODY");
     if (variant.body) options.defines.emplace_back("BODY_SIZE", std::to_string(body_size));
     define(variant.clipped, "CLIPPED");
+    if (variant.screen) {
+        options.defines.emplace_back("SCREEN_REFLECTIONS", "1");
+        options.defines.emplace_back("SCREEN_DEPTH_LEVELS", std::to_string(screen_depth_levels));
+    }
     define(variant.double_sided, "DOUBLE_SIDED");
     define(variant.blend != Blend::opaque, "TRANSLUCENT");
     define(variant.blend == Blend::additive, "BLEND_ADDITIVE");
@@ -331,6 +338,21 @@ const gl::Program& Programs::body_rim() {
         body_rim_ = gl::Program(*gl_, {"passes/full_screen.vert", "passes/body_rim.frag"}, options);
     }
     return body_rim_;
+}
+
+const gl::Program& Programs::screen_depths(ScreenDepthStep step) {
+    gl::Program& program = screen_depths_[step];
+    if (!program) {
+        gl::ShaderOptions options;
+        switch (step) {
+            case ScreenDepthStep::pixels: options.defines.emplace_back("PIXELS", "1"); break;
+            case ScreenDepthStep::first_cells: options.defines.emplace_back("FIRST", "1"); break;
+            case ScreenDepthStep::cells: break;
+        }
+        program =
+            gl::Program(*gl_, {"passes/full_screen.vert", "passes/screen_depths.frag"}, options);
+    }
+    return program;
 }
 
 const gl::Program& Programs::grade(Tonemap tonemap, Encode encode, bool decode) {

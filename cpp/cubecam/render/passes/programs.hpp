@@ -67,6 +67,7 @@ struct SurfaceVariant {
     BehindLookup planar = BehindLookup::none;  ///< what its planar mirror shows
     bool clipped = false;                      ///< the view has a clip plane
     bool body = false;                         ///< light goes to the far side of the body
+    bool screen = false;                       ///< reflections are looked up on the screen first
 
     auto operator<=>(const SurfaceVariant&) const = default;
 };
@@ -74,6 +75,10 @@ struct SurfaceVariant {
 /// How the texture of distances is made: from depth buffers; the nearest surface of each block;
 /// that of all blocks around.
 enum class DistanceStep : std::uint8_t { faces, blocks, around };
+
+/// How the depths are made in which reflections on the screen are followed: from the depth buffer
+/// and the ids; cells of 2 pixels; larger cells.
+enum class ScreenDepthStep : std::uint8_t { pixels, first_cells, cells };
 
 /// The variant of shadow.vert and shadow.frag that a caster needs.
 struct ShadowVariant {
@@ -111,6 +116,7 @@ public:
     /// A step of the texture of distances. `layers`: there are depths of the farthest surfaces,
     /// too.
     const gl::Program& distances(DistanceStep step, bool layers);
+    const gl::Program& screen_depths(ScreenDepthStep step);
     const gl::Program& grade(Tonemap tonemap, Encode encode, bool decode);
     const gl::Program& bounce_change();
     /// The inner side of a mesh.
@@ -131,6 +137,7 @@ private:
     UserPrograms users_;
     std::map<ShadowVariant, gl::Program> shadows_;
     std::map<std::pair<DistanceStep, bool>, gl::Program> distances_;
+    std::map<ScreenDepthStep, gl::Program> screen_depths_;
     gl::Program skybox_, turned_skybox_;
     gl::Program bounce_change_;
     gl::Program body_, body_rim_;

@@ -93,7 +93,7 @@ ShaderNames read_names(std::initializer_list<std::string_view> files) {
     names.functions.erase("main");  // has a message of its own
     names.macros.insert("STAGE");
     for (const char* name : {"MATERIAL_SIZE", "SHADOW_UNIT", "SHADOW_KINDS", "MAX_SHADOWS",
-                             "OUTPUT_DECLARATIONS", "OUTPUT_ZEROS"}) {
+                             "OUTPUT_DECLARATIONS", "OUTPUT_ZEROS", "SCREEN_DEPTH_LEVELS"}) {
         names.macros.insert(name);
     }
     return names;

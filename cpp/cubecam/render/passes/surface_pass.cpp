@@ -289,6 +289,7 @@ SurfaceVariant SurfacePass::variant_of(const SurfaceItem& item, bool instanced,
     variant.body = traits.shows_far_side;
     if (item.textures->environment.planar.picture.texture != 0) variant.planar = behind_;
     variant.clipped = clipped_;
+    variant.screen = item.textures->screen.depths != 0;
     if (receive_shadow(node)) {
         variant.shadows = static_cast<int>(lights_.shadow_count);
         variant.shadow_kinds = shadow_kinds_;
@@ -324,6 +325,11 @@ void SurfacePass::find_conditions(const SurfaceItem& item, const SurfaceVariant&
     }
     if (environment.parts.filtered || environment.filtered != nullptr) {
         add(texture_unit::brdf_table, brdf_table(), 0);
+    }
+    if (item.textures->screen.depths != 0) {
+        add(texture_unit::screen, item.textures->screen.picture.texture,
+            item.textures->screen.picture.revision);
+        add(texture_unit::screen_depths, item.textures->screen.depths, 0);
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(variant.shadows); ++i) {
         add(texture_unit::first_shadow + static_cast<GLuint>(i), shadow_textures_[i].texture,
@@ -364,6 +370,10 @@ void SurfacePass::bind_textures(const SurfaceItem& item, const SurfaceVariant& v
     if (traits.shows_far_side) {
         gl_->BindTextureUnit(texture_unit::body_nearness, item.textures->body.nearness);
         gl_->BindTextureUnit(texture_unit::body_normals, item.textures->body.normals);
+    }
+    if (item.textures->screen.depths != 0) {
+        gl_->BindTextureUnit(texture_unit::screen, item.textures->screen.picture.texture);
+        gl_->BindTextureUnit(texture_unit::screen_depths, item.textures->screen.depths);
     }
 }
 

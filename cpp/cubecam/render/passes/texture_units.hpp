@@ -20,6 +20,9 @@ inline constexpr GLuint distances = 6;    ///< of the surfaces that a probe capt
 inline constexpr GLuint farthest = 7;     ///< the farthest surfaces that a probe captured
 /// The first texture of a material, or of a user's source; those that are set follow each other.
 inline constexpr GLuint first_of_material = 8;
+/// What reflections find on the screen, and the depths in which they are followed.
+inline constexpr GLuint screen = 44;
+inline constexpr GLuint screen_depths = 45;
 /// The far side of a surface's body; materials that look it up have few textures of their own.
 inline constexpr GLuint body_nearness = 46;
 inline constexpr GLuint body_normals = 47;
@@ -27,6 +30,6 @@ inline constexpr GLuint body_normals = 47;
 inline constexpr GLuint first_shadow = 48;
 
 /// The largest number of textures of one material.
-inline constexpr std::size_t most_of_material = first_shadow - first_of_material;
+inline constexpr std::size_t most_of_material = screen - first_of_material;
 
 }  // namespace cubecam::texture_unit

@@ -75,6 +75,12 @@ struct Environment {
     void add_to(std::vector<std::uint64_t>& key) const;
 };
 
+/// What reflections find on the screen.
+struct ScreenTextures {
+    BoundTexture picture;  ///< texture 0: rays are not looked up there
+    GLuint depths = 0;     ///< passes/screen_depth_pass.hpp
+};
+
 /// All textures that a node looks up.
 struct NodeTextures {
     Environment environment;
@@ -82,6 +88,7 @@ struct NodeTextures {
     BoundTexture behind;  ///< the scene behind a transmissive surface; texture 0: none
     /// The inner side of the mesh, if light goes through it. It depends on the mesh alone.
     BodyLookup body;
+    ScreenTextures screen;
 };
 
 /// The uniform block `Environment` of shaders/include/environment.glsl, std140.

@@ -155,6 +155,14 @@ std::size_t Target::Mirrors::bytes() const {
     return sum;
 }
 
+std::size_t Target::Screen::depth_bytes() const {
+    const TargetDescription& drawn = target->description();
+    const std::size_t texels = static_cast<std::size_t>(screen_depths_side(drawn.width)) *
+                               static_cast<std::size_t>(screen_depths_side(drawn.height)) *
+                               static_cast<std::size_t>(drawn.layers());
+    return texels * 2 * sizeof(float) * 4 / 3;
+}
+
 Layers::Layers(const GladGLContext& gl, std::vector<Attachment> attachments, int layers)
     : gl_(&gl), attachments_(std::move(attachments)), one_(static_cast<std::size_t>(layers)) {}
 

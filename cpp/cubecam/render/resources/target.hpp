@@ -98,6 +98,14 @@ private:
     std::vector<gl::Framebuffer> one_;
 };
 
+/// The texture of depths in which reflections are followed has levels of cells, each with a side of
+/// 2^level pixels. Its sides are whole numbers of cells of the last level.
+inline constexpr int screen_depth_levels = 7;
+constexpr int screen_depths_side(int pixels) {
+    constexpr int cell = 1 << (screen_depth_levels - 1);
+    return (pixels + cell - 1) / cell * cell;
+}
+
 /// Identifies a call that changed neither its picture nor any picture on which it depends. While
 /// these members stay the same, the picture stays valid.
 struct UnchangedCall {
@@ -175,11 +183,23 @@ public:
         Mirrors mirrors;                 ///< that this picture shows
     };
     Mirrors mirrors;  ///< of the picture in this target, if it is a frame or a capture
+    /// What reflections find on the screen (graph/screen_picture.hpp).
+    struct Screen {
+        std::unique_ptr<Target> target;  ///< null: not drawn yet
+        gl::Texture depths;              ///< passes/screen_depth_pass.hpp
+        std::vector<Layers> levels;      ///< of `depths`
+        std::uint64_t revision = 0;      ///< new whenever a layer was drawn
 
-    /// The GPU memory of the target, of what is behind it and of what its planar mirrors show.
+        std::size_t depth_bytes() const;  ///< of `depths`, whether made or not
+        std::size_t bytes() const { return target ? target->bytes() + depth_bytes() : 0; }
+    };
+    Screen screen;  ///< of the picture in this target, if it is a frame
+
+    /// The GPU memory of the target, of what is behind it, of what its planar mirrors show and of
+    /// what its reflections find on the screen.
     std::size_t bytes() const {
         return description_.bytes() + (behind.target ? behind.target->bytes() : 0) +
-               mirrors.bytes();
+               mirrors.bytes() + screen.bytes();
     }
 
     /// The last call, if it drew nothing.
