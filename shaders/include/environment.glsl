@@ -1,3 +1,5 @@
+// One environment. For several, a program has this text once for each, with numbers behind its names
+// (cpp/cubecam/render/passes/environment_text.hpp), and include/environment_blend.glsl.
 #include "include/cube_place.glsl"
 
 layout(binding = 1) uniform samplerCube u_cube;
@@ -62,6 +64,7 @@ vec3 environment_from(vec3 from_origin, vec3 direction_world) {
 }
 
 #include "include/planar_mirror.glsl"
+#include "include/probe_grid.glsl"
 
 // The same at the surface, which may be a planar mirror.
 vec3 environment(vec3 direction_world) {
@@ -138,7 +141,8 @@ vec3 environment_seen(vec3 direction, float level) {
 // A planar mirror shows no irradiance, so that this is that of the scene's environment.
 vec3 environment_irradiance(vec3 normal_world) {
     vec3 normal = environment_in_cube(normal_world);
-    return environment_scaled(environment_place(u_environment_places[0], cube_place(normal)));
+    vec3 light = environment_scaled(environment_place(u_environment_places[0], cube_place(normal)));
+    return or_probe_grid(light, normal_world);
 }
 #else
 // Without filtered levels the mipmaps replace them, or the cube itself if it has none.
@@ -149,7 +153,8 @@ float environment_level_of(float roughness) {
 vec3 environment_seen(vec3 direction, float level) { return textureLod(u_cube, direction, level).rgb; }
 
 vec3 environment_irradiance(vec3 normal_world) {
-    return environment_scaled(environment_seen(environment_in_cube(normal_world), environment_level_of(1.0)));
+    vec3 light = environment_scaled(environment_seen(environment_in_cube(normal_world), environment_level_of(1.0)));
+    return or_probe_grid(light, normal_world);
 }
 #endif
 
@@ -169,5 +174,30 @@ vec3 environment_filtered(vec3 direction_world, float roughness) {
     }
 #endif
     return or_planar_mirror(environment_scaled(light), direction_world, planar_mirror_spread(roughness), 0.0);
+}
+#endif
+
+#ifdef USER_SOURCE
+// The environment at a chosen level of detail; 0 is the finest. The levels of a filtered environment are those of its
+// roughnesses.
+vec3 environment_lod(vec3 direction_world, float level) {
+    EnvironmentHit hit = environment_met(v_position, direction_world);
+#ifdef ENVIRONMENT_FILTERED
+    vec3 light = environment_scaled(environment_seen(hit.direction, level));
+#else
+    vec3 light = environment_scaled(textureLod(u_cube, hit.direction, level).rgb);
+#endif
+    return or_planar_mirror(light, direction_world, 0.0, level);
+}
+
+// The number of levels of the environment: 1 without mipmaps or filtered levels, 0 without an environment.
+int environment_levels() { return u_environment_levels.x; }
+
+// Whether a probe captured the environment in this world. Otherwise it is a photograph, which is infinitely far away.
+bool environment_is_local() { return u_environment_position.w != 0.0; }
+
+// The world position where the environment was captured; for a photograph the world's origin.
+vec3 environment_position() {
+    return environment_is_local() ? u_environment_position.xyz + u_origin.xyz : vec3(0.0);
 }
 #endif
