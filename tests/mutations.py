@@ -1499,7 +1499,7 @@ MUTATIONS = [
     ),
     Mutation(
         "GLSL: levels of the environment from behind",
-        "scene.glsl",
+        "include/environment.glsl",
         "textureLod(u_cube, hit.direction, level).rgb);\n#endif",
         "textureLod(u_cube, -hit.direction, level).rgb);\n#endif",
         ("tests/gl/test_shader_material.py",),

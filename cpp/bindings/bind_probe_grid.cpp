@@ -102,7 +102,7 @@ void bind_arrays_of(Class<ProbeGrid>& grid) {
         "directions of an octahedral map of R = `resolution`, world units; read-only.");
     grid.def_property(
         "active",
-        [](const ProbeGrid& self) -> OneOf<py::array_t<bool>> {
+        [](const ProbeGrid& self) -> Shown<"numpy.typing.NDArray[numpy.bool_]"> {
             const ProbeGridValue value = self.value();
             return readonly_view(py::dtype::of<bool>(), shape_of(value, {}), value.active->data(),
                                  value.active);

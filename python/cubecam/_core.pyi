@@ -929,6 +929,9 @@ class ProbeBlend:
 
     Notes
     -----
+    The proxy of a probe with ``parallax="box"`` or ``"sphere"`` should contain its influence with the blend distance: a
+    point outside of the proxy sees the cube as if it were infinitely far away, which jumps at the proxy's side.
+
     ``environment_levels``, ``environment_is_local`` and ``environment_position`` of a `ShaderMaterial` are those of the first
     probe that reaches the node. For the limit, a probe reaches a node if the box around its influence, with the
     blend distance on all sides, overlaps ``node.world_bounds``. Each further probe costs the lookups of one more
@@ -984,9 +987,9 @@ class ProbeGrid:
     counts : (int, int, int)
         Nodes along x, y and z, each at least 2.
     size : int
-        Texels along an edge of the cubemaps that `bake` captures.
+        Texels along an edge of the cubemaps that `bake` captures, from 1 to 128.
     resolution : int
-        Texels along an edge of the octahedral map of distances of each node, from 4 to 64.
+        Texels along an edge of the octahedral map of distances of each node, from 4 to 32.
     visibility : bool
         True: a node counts less where it does not see a point, and where it lies behind the point's surface. False:
         trilinear interpolation alone, by which light leaks through walls.
@@ -1087,7 +1090,7 @@ class ProbeGrid:
         scene : Scene
             What is captured; its `Scene.probe_grid` is this one meanwhile, and afterwards what it was.
         bounces : int
-            How many reflections by surfaces paths have at most, at least 1.
+            How many reflections by surfaces paths have at most, from 1 to 16.
         exclude : iterable of Node
             Nodes that are left out with all nodes below them, for example those that move.
         near, far : float
@@ -1098,7 +1101,7 @@ class ProbeGrid:
         Raises
         ------
         TypeError, ValueError, ContextError
-            As `Renderer.capture` raises, and for bounces below 1.
+            As `Renderer.capture` raises, and for bounces out of their range.
 
         Examples
         --------
@@ -1114,7 +1117,7 @@ class ProbeGrid:
         """
 
     @property
-    def active(self) -> np.typing.NDArray[np.bool]:
+    def active(self) -> np.typing.NDArray[np.bool_]:
         """
         ndarray (nz, ny, nx) bool: False for nodes that lie in bodies, which count only where no other node does; read-only.
         """

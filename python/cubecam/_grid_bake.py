@@ -9,13 +9,16 @@ import numpy as np
 import numpy.typing as npt
 
 from ._calls import checked_call
-from ._checks import whole_number
+from ._checks import text_of, whole_number
 from ._core import BasicMaterial, Mesh, Node, ProbeGrid, Renderer, Scene
 from ._drawn_meshes import deformed_mesh
 
 __all__ = ["bake"]
 
 Array = npt.NDArray[np.float64]
+
+#: The largest number of rounds.
+MOST_BOUNCES = 16
 
 #: The cosine's power by which distances are weighted round a direction: "depth sharpness" of Majercik et al. 2019.
 _SHARPNESS = 50
@@ -54,7 +57,7 @@ def bake(
     scene : Scene
         What is captured; its `Scene.probe_grid` is this one meanwhile, and afterwards what it was.
     bounces : int
-        How many reflections by surfaces paths have at most, at least 1.
+        How many reflections by surfaces paths have at most, from 1 to 16.
     exclude : iterable of Node
         Nodes that are left out with all nodes below them, for example those that move.
     near, far : float
@@ -65,7 +68,7 @@ def bake(
     Raises
     ------
     TypeError, ValueError, ContextError
-        As `Renderer.capture` raises, and for bounces below 1.
+        As `Renderer.capture` raises, and for bounces out of their range.
 
     Examples
     --------
@@ -79,8 +82,14 @@ def bake(
     >>> (grid.coefficients[0, 0, 0, 0] / (4 * 3.14159265) ** 0.5).round(4).tolist()
     [1.0, 1.0, 1.0]
     """
-    whole_number(bounces, "bounces", 1)
-    left_out = list(exclude)
+    whole_number(bounces, "bounces", 1, MOST_BOUNCES)
+    for value, kind in ((renderer, Renderer), (scene, Scene)):
+        if not isinstance(value, kind):
+            word = kind.__name__
+            raise TypeError(f"{word.lower()}: expected a {word}, got {text_of(value)}")
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress: expected a callable or None, got {text_of(progress)}")
+    left_out = _nodes_of(exclude)
     nx, ny, nz = self.counts
     places = _places(self).reshape(-1, 3)
     total = len(places) * (bounces + 1)
@@ -133,6 +142,16 @@ def bake(
         raise
     finally:
         scene.probe_grid = shown
+
+
+def _nodes_of(exclude: Iterable[Node]) -> list[Node]:
+    if isinstance(exclude, (Node, str, bytes)) or not isinstance(exclude, Iterable):
+        raise TypeError(f"exclude: expected a sequence of Nodes, got {text_of(exclude)}")
+    found = list(exclude)
+    for node in found:
+        if not isinstance(node, Node):
+            raise TypeError(f"exclude: expected Nodes, got {text_of(node)}")
+    return found
 
 
 def _places(grid: ProbeGrid) -> Array:

@@ -135,8 +135,8 @@ def test_properties_and_pickles():
         (lambda g: cc.ProbeGrid(BOX, (1, 2, 2)), ValueError, "counts"),
         (lambda g: cc.ProbeGrid(BOX, (2, 2)), TypeError, "three whole numbers"),
         (lambda g: cc.ProbeGrid(BOX, (2, 200, 200)), ValueError, "nx and ny \\* nz of at most"),
-        (lambda g: cc.ProbeGrid(BOX, COUNTS, resolution=3), ValueError, "resolution from 4 to 64"),
-        (lambda g: cc.ProbeGrid(BOX, COUNTS, size=0), ValueError, "size of at least 1"),
+        (lambda g: cc.ProbeGrid(BOX, COUNTS, resolution=3), ValueError, "resolution from 4 to 32"),
+        (lambda g: cc.ProbeGrid(BOX, COUNTS, size=0), ValueError, "size from 1 to 128"),
         (lambda g: cc.ProbeGrid(BOX, COUNTS, view_bias=-1), ValueError, "view_bias"),
         (
             lambda g: setattr(g, "coefficients", np.zeros((5, 3, 4, 4, 3))),

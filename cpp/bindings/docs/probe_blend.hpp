@@ -34,6 +34,9 @@ TypeError
 
 Notes
 -----
+The proxy of a probe with ``parallax="box"`` or ``"sphere"`` should contain its influence with the blend distance: a
+point outside of the proxy sees the cube as if it were infinitely far away, which jumps at the proxy's side.
+
 ``environment_levels``, ``environment_is_local`` and ``environment_position`` of a `ShaderMaterial` are those of the first
 probe that reaches the node. For the limit, a probe reaches a node if the box around its influence, with the
 blend distance on all sides, overlaps ``node.world_bounds``. Each further probe costs the lookups of one more

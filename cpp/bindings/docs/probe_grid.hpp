@@ -19,9 +19,9 @@ box : array_like (2, 3)
 counts : (int, int, int)
     Nodes along x, y and z, each at least 2.
 size : int
-    Texels along an edge of the cubemaps that `bake` captures.
+    Texels along an edge of the cubemaps that `bake` captures, from 1 to 128.
 resolution : int
-    Texels along an edge of the octahedral map of distances of each node, from 4 to 64.
+    Texels along an edge of the octahedral map of distances of each node, from 4 to 32.
 visibility : bool
     True: a node counts less where it does not see a point, and where it lies behind the point's surface. False:
     trilinear interpolation alone, by which light leaks through walls.

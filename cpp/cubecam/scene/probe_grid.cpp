@@ -43,7 +43,7 @@ void check_shape(const ProbeGridValue& value) {
            "low " + describe(value.box.low) + ", high " + describe(value.box.high));
     expect(glm::all(glm::greaterThanEqual(value.counts, glm::ivec3(2))),
            "counts=(nx, ny, nz) of at least 2", counts_text(value.counts));
-    expect(value.resolution >= 4 && value.resolution <= 64, "resolution from 4 to 64",
+    expect(value.resolution >= 4 && value.resolution <= 32, "resolution from 4 to 32",
            std::to_string(value.resolution));
     const auto edge = static_cast<std::int64_t>(value.resolution) + 2;
     const std::int64_t width = value.counts.x * edge;
@@ -79,7 +79,7 @@ bool ProbeGridValue::operator==(const ProbeGridValue& other) const {
 
 void check(const ProbeGridValue& value) {
     check_shape(value);
-    expect(value.size >= 1, "size of at least 1", std::to_string(value.size));
+    expect(value.size >= 1 && value.size <= 128, "size from 1 to 128", std::to_string(value.size));
     const std::size_t nodes = value.node_count();
     const auto texels = static_cast<std::size_t>(value.resolution * value.resolution);
     check_length(value.coefficients, nodes * light_numbers, "coefficients");
