@@ -538,6 +538,11 @@ def method_set_face(world, rng, draw):
     cube.set_face(int(rng.integers(6)), rng.random((4, 4, 3)).astype(np.float32))
 
 
+def method_bake_a_grid(world, rng, draw):
+    with cc.Renderer() as renderer:
+        one(rng, *world.grids).bake(renderer, cc.Scene(background=rng.random(3)))
+
+
 def method_add_node(world, rng, draw):
     scene = one(rng, *world.scenes)
     box, material = cc.Mesh.box(0.3), cc.PhongMaterial(color=rng.random(3))

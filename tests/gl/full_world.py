@@ -183,7 +183,7 @@ def full_world(rng):
     for probe, low, high in ((mirror, -1, 0.5), (glass, 0, 2)):
         probe.influence = (low, -2, -2), (high, 2, 2)
     world.blends = [cc.ProbeBlend([mirror, glass])]
-    grid = cc.ProbeGrid(((-2, -1.5, -2), (2, 1.5, 2)), (3, 2, 2), resolution=4)
+    grid = cc.ProbeGrid(((-2, -1.5, -2), (2, 1.5, 2)), (3, 2, 2), size=4, resolution=4)
     grid.coefficients = np.random.default_rng(5).random(grid.coefficients.shape)
     grid.distances = 1 + np.random.default_rng(6).random(grid.distances.shape)
     world.grids = [grid]

@@ -63,6 +63,8 @@ def test_distances_are_those_of_dense_samples():
     ball = Influence((-1, -1, -1), (1, 1, 1), shape="sphere", matrix=moved)
     want = np.maximum(np.linalg.norm(points - moved[:3, 3], axis=-1) - 1, 0)
     np.testing.assert_allclose(distance_outside(points, ball), want, atol=1e-12)
+    wide = Influence((-1, -1, -1), (1, 1, 1), matrix=np.diag([2.0, 1, 3, 1]))
+    assert distance_outside([(4, 0, 0), (0, 0, 4.5), (5, 5, 0)], wide).tolist() == [2, 1.5, 5]
 
 
 def test_a_blend_keeps_its_probes_and_is_pickled():
