@@ -95,6 +95,13 @@ def test_each_pixel_has_the_weights_of_its_place(any_path, kind):
     assert ((w > 0.1).sum(axis=-1) >= 2).mean() > 0.15
 
 
+def test_places_elsewhere_have_their_own_weights(renderer):
+    source = "vec3 shade(Surface s) { return environment_at(s.position * .6, s.normal); }"
+    scene, node, _ = world(cc.ShaderMaterial(source))
+    got, position = seen(renderer, scene, node)
+    assert np.abs(got - expected(position * 0.6)).max() < 1e-4
+
+
 @pytest.mark.parametrize("parallax", ["box", "sphere", "distance", "layers"])
 def test_each_probe_keeps_its_parallax(renderer, parallax):
     """Between two probes a mirror shows the mean of what it shows with either."""
