@@ -101,8 +101,7 @@ void bind_arrays_of(Class<ProbeGrid>& grid) {
         "ndarray (nz, ny, nx, R, R, 2) float32: means of the distance and of its square round the "
         "directions of an octahedral map of R = `resolution`, world units; read-only.");
     grid.def_property(
-        "active",
-        [](const ProbeGrid& self) -> Shown<"numpy.typing.NDArray[numpy.bool_]"> {
+        "active", [](const ProbeGrid& self)->Shown<"numpy.typing.NDArray[numpy.bool_]"> {
             const ProbeGridValue value = self.value();
             return readonly_view(py::dtype::of<bool>(), shape_of(value, {}), value.active->data(),
                                  value.active);

@@ -43,8 +43,8 @@ struct ProbeGridValue {
 inline constexpr int most_grid_texels = 16384;
 
 /// @throws std::invalid_argument for an empty or infinite box, counts below 2, a resolution outside
-/// of 4..32, a size outside of 1..128, a grid that is too large for a texture, arrays of another length or numbers that are
-/// not finite, and for a bias below 0.
+/// of 4..32, a size outside of 1..128, a grid that is too large for a texture, arrays of another
+/// length or numbers that are not finite, and for a bias below 0.
 void check(const ProbeGridValue& value);
 
 /// A value whose arrays are those of a grid that saw nothing: black, and nothing hides anything.
