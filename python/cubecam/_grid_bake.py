@@ -95,10 +95,9 @@ def bake(
     total = len(places) * (bounces + 1)
     old = self.coefficients, self.distances, self.active
     shown = scene.probe_grid
-    cameras = {"near": near, "far": far}
 
     def capture(of: Scene, place: Array, **options: Any) -> Any:
-        return renderer.capture(of, place, self.size, **cameras, **options)
+        return renderer.capture(of, place, self.size, near=near, far=far, **options)
 
     done = 0
 
@@ -182,7 +181,8 @@ def _octahedral_directions(resolution: int) -> Array:
     z = 1 - np.abs(u) - np.abs(v)
     fold = np.maximum(-z, 0)
     found = np.stack([u - np.sign(u) * fold, v - np.sign(v) * fold, z], axis=-1).reshape(-1, 3)
-    return found / np.linalg.norm(found, axis=-1, keepdims=True)
+    unit: Array = found / np.linalg.norm(found, axis=-1, keepdims=True)
+    return unit
 
 
 def _lobes(centers: Array, directions: Array, shares: Array) -> Array:
@@ -191,7 +191,8 @@ def _lobes(centers: Array, directions: Array, shares: Array) -> Array:
     # A lobe narrower than a texel sees the nearest one.
     nearest = (centers @ directions.T).argmax(axis=-1)
     weights[np.arange(len(centers)), nearest] += 1e-12
-    return weights / weights.sum(axis=-1, keepdims=True)
+    means: Array = weights / weights.sum(axis=-1, keepdims=True)
+    return means
 
 
 def _scene_of_backs(scene: Scene, exclude: list[Node]) -> Scene:

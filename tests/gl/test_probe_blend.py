@@ -23,7 +23,9 @@ BOXES = (
 MATERIALS = {
     "mirror": lambda: cc.MirrorMaterial(),
     "rough": lambda: cc.StandardMaterial(color=(1, 1, 1), metallic=1, roughness=0.5),
-    "matt": lambda: cc.StandardMaterial(color=(1, 1, 1), metallic=0, specular_weight=0, roughness=1),
+    "matt": lambda: cc.StandardMaterial(
+        color=(1, 1, 1), metallic=0, specular_weight=0, roughness=1
+    ),
     "own": lambda: cc.ShaderMaterial(
         "vec3 shade(Surface s) { return environment_at(s.position, s.normal); }"
     ),
@@ -70,9 +72,7 @@ def world(material, boxes=BOXES, rest=0.25, mesh=None, **options):
 
 def seen(renderer, scene, node, camera=CAMERA):
     """The colours of the node's pixels and their places, which lies before the shells."""
-    frame = renderer.render(
-        scene, camera, SIZE, format="rgba32f", outputs=("position", "id")
-    )
+    frame = renderer.render(scene, camera, SIZE, format="rgba32f", outputs=("position", "id"))
     on = frame.outputs["id"] == node.id
     return frame.color[on][:, :3].astype(float), frame.outputs["position"][on].astype(float)
 

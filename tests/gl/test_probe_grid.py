@@ -15,7 +15,9 @@ MATERIALS = {
     "own": lambda: cc.ShaderMaterial(
         "vec3 shade(Surface s) { return environment_irradiance(s.normal); }"
     ),
-    "matt": lambda: cc.StandardMaterial(color=(1, 1, 1), metallic=0, specular_weight=0, roughness=1),
+    "matt": lambda: cc.StandardMaterial(
+        color=(1, 1, 1), metallic=0, specular_weight=0, roughness=1
+    ),
 }
 
 
@@ -123,7 +125,12 @@ def test_bounces_add_what_walls_reflect(renderer):
     shine, albedo = 0.4, 0.5
     scene = cc.Scene()
     walls = cc.StandardMaterial(
-        color=(albedo,) * 3, emissive=(shine,) * 3, metallic=0, specular_weight=0, roughness=1, double_sided=True
+        color=(albedo,) * 3,
+        emissive=(shine,) * 3,
+        metallic=0,
+        specular_weight=0,
+        roughness=1,
+        double_sided=True,
     )
     scene.add(cc.Mesh.box(1), walls, scale=(4, 3, 3))
     grid = cc.ProbeGrid(((-1, -1, -1), (1, 1, 1)), (2, 2, 2), size=8)
@@ -170,7 +177,11 @@ def test_light_does_not_leak_through_a_thin_wall(renderer):
 
 def test_nodes_in_bodies_do_not_count(renderer):
     scene = cc.Scene(background=(1, 1, 1))
-    scene.add(cc.Mesh.box(1), cc.StandardMaterial(color=(0, 0, 0), metallic=0, specular_weight=0), position=(1, 0, 0))
+    scene.add(
+        cc.Mesh.box(1),
+        cc.StandardMaterial(color=(0, 0, 0), metallic=0, specular_weight=0),
+        position=(1, 0, 0),
+    )
     grid = cc.ProbeGrid(((-1, -0.2, -0.2), (1, 0.2, 0.2)), (3, 2, 2), size=8)
     grid.bake(renderer, scene)
     np.testing.assert_array_equal(grid.active[..., 2], False)

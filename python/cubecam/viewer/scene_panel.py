@@ -92,7 +92,7 @@ def probes_of(nodes: Iterable[Node]) -> dict[Probe, list[Node]]:
     found: dict[Probe, list[Node]] = {}
     for node in nodes:
         shown = node.environment
-        cubes = list(shown.probes) if isinstance(shown, ProbeBlend) else [shown]
+        cubes: list[object] = list(shown.probes) if isinstance(shown, ProbeBlend) else [shown]
         if node.material is not None:
             cubes.append(getattr(node.material, "cubemap", None))
             cubes.extend(getattr(node.material, "textures", {}).values())

@@ -77,7 +77,8 @@ def octahedral_directions(resolution: int) -> Array:
     fold = np.maximum(-z, 0)
     x, y = u - np.copysign(fold, u), v - np.copysign(fold, v)
     found: Array = np.stack([x, y, z], axis=-1)
-    return found / np.sqrt((found**2).sum(axis=-1, keepdims=True))
+    unit: Array = found / np.sqrt((found**2).sum(axis=-1, keepdims=True))
+    return unit
 
 
 def octahedral_place(directions: npt.ArrayLike) -> Array:
@@ -155,7 +156,8 @@ def visibility_weight(
             bound = np.where(late > 0, variance / (variance + late**2), 1)
         weight = weight * np.where(d > mean, bound**3, 1)
     weight = np.maximum(weight, LEAST)
-    return np.where(weight < CRUSHED, weight**3 / CRUSHED**2, weight)
+    crushed: Array = np.where(weight < CRUSHED, weight**3 / CRUSHED**2, weight)
+    return crushed
 
 
 def irradiance(
