@@ -40,6 +40,7 @@ PICTURES = {
     "howto/reflection.md": {"reflection.png": "howto-reflection.jpg"},
     "howto/glb_in_a_probe.md": {"ball.png": "howto-ball.jpg"},
     "howto/own_pictures.md": {"ball.png": "howto-own-pictures.jpg"},
+    "howto/several_probes.md": {"rooms.png": "howto-several-probes.jpg"},
     "howto/projections.md": {
         f"{name}.jpg": f"howto-projection-{name}.jpg" for name in _PROJECTIONS
     },

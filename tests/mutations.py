@@ -65,6 +65,8 @@ KEPT = ("tests/gl/test_kept_snapshots.py",)
 FILTERED = ("tests/gl/test_filtered_environments.py",)
 PARALLAX = ("tests/gl/test_parallax.py",)
 BODIES = ("tests/gl/test_glass_bodies.py",)
+PROBE_BLEND = ("tests/gl/test_probe_blend.py",)
+PROBE_GRID = ("tests/gl/test_probe_grid.py",)
 LABELS = ("tests/gl/test_labels.py",)
 STANDARD = ("tests/gl/test_standard_material.py",)
 STANDARD_REFERENCE = ("tests/gl/test_standard_reference.py",)
@@ -109,6 +111,8 @@ TRUTH_SCENES = ("tests/truth/test_odd_scenes.py",)
 TRUTH_WORKERS = ("tests/truth/test_workers.py",)
 PARALLAX_REFERENCE = ("tests/unit/test_parallax.py",)
 BODIES_REFERENCE = ("tests/unit/test_glass_reference.py",)
+INFLUENCE_REFERENCE = ("tests/unit/test_influence.py",)
+GRID_REFERENCE = ("tests/unit/test_probe_grid.py",)
 SHADER_TRIAL = ("tests/gl/test_shader_trial.py",)
 
 MUTATIONS = [
@@ -699,6 +703,237 @@ MUTATIONS = [
         "float tangent = 2.0 * alpha * spread;",
         "float tangent = 2.0 * alpha;",
         PARALLAX,
+    ),
+    Mutation(
+        "several probes: weights are not divided by their sum",
+        "include/environment_blend.glsl",
+        "weights.of[i] /= max(sum, 1.0);",
+        "weights.of[i] /= 1.0;",
+        PROBE_BLEND,
+    ),
+    Mutation(
+        "several probes: the scene's environment has no rest",
+        "include/environment_blend.glsl",
+        "= 1.0 - min(sum, 1.0);",
+        "= 0.0;",
+        PROBE_BLEND,
+    ),
+    Mutation(
+        "several probes: the distance is that of the box's own space",
+        "include/environment_blend.glsl",
+        "length(way) * influence.from_box[0].w",
+        "length(outside) * influence.from_box[0].w",
+        PROBE_BLEND,
+    ),
+    Mutation(
+        "several probes: an ellipsoid counts as a box",
+        "include/environment_blend.glsl",
+        "influence.from_box[1].w > 0.0 ?",
+        "influence.from_box[1].w > 2.0 ?",
+        PROBE_BLEND,
+    ),
+    Mutation(
+        "several probes: a place elsewhere has the weights of the surface",
+        "include/environment_blend.glsl",
+        "EnvironmentWeights w = environment_weights(from_origin);",
+        "EnvironmentWeights w = environment_weights(v_position);",
+        PROBE_BLEND,
+    ),
+    Mutation(
+        "several probes: influences that overlap a corner of the bounds do not reach",
+        "scene/influence.cpp",
+        "glm::lessThan(bounds.low, reach.high)",
+        "glm::lessThan(bounds.high, reach.high)",
+        PROBE_BLEND,
+    ),
+    Mutation(
+        "several probes: a changed influence draws nothing again",
+        "resources/environment.cpp",
+        "key.push_back(std::bit_cast<std::uint64_t>(influence.blend_distance));",
+        "",
+        PROBE_BLEND,
+    ),
+    Mutation(
+        "several probes: textures of the second on the units of the first",
+        "passes/environment_text.cpp",
+        'replace_all(one, "(" + binding(old) + " uniform", "(" + binding(now) + " uniform");',
+        'replace_all(one, "(" + binding(old) + " uniform", "(" + binding(old) + " uniform");',
+        PROBE_BLEND,
+    ),
+    Mutation(
+        "several probes: a probe shows nodes of its blend while it does not reach them",
+        "snapshot_queries.cpp",
+        "return blend == nullptr ? std::span<const std::size_t>() : *blend->probes;",
+        "return std::span<const std::size_t>();",
+        PROBE_BLEND,
+    ),
+    Mutation(
+        "several probes, reference: a linear fall",
+        "shading/influence.py",
+        "1 - t * t * (3 - 2 * t)",
+        "1 - t",
+        INFLUENCE_REFERENCE,
+    ),
+    Mutation(
+        "several probes, reference: an ellipsoid is a box",
+        "shading/influence.py",
+        'if influence.shape == "box":',
+        "if True:",
+        INFLUENCE_REFERENCE,
+    ),
+    Mutation(
+        "several probes, reference: distances are not those of the world",
+        "shading/influence.py",
+        "away = (local - nearest) @ matrix[:3, :3].T",
+        "away = local - nearest",
+        INFLUENCE_REFERENCE,
+    ),
+    Mutation(
+        "several probes, reference: weights above 1 together",
+        "shading/influence.py",
+        "w / np.maximum(total, 1)",
+        "w",
+        INFLUENCE_REFERENCE,
+    ),
+    Mutation(
+        "probe grid: nodes behind a surface count alike",
+        "include/probe_grid.glsl",
+        "float weight = facing * facing + 0.2;",
+        "float weight = 1.2;",
+        PROBE_GRID,
+    ),
+    Mutation(
+        "probe grid: Chebyshev's bound is not cubed",
+        "include/probe_grid.glsl",
+        "seen * seen * seen",
+        "seen",
+        PROBE_GRID,
+    ),
+    Mutation(
+        "probe grid: the variance is the mean square",
+        "include/probe_grid.glsl",
+        "abs(moments.x * moments.x - moments.y)",
+        "moments.y",
+        PROBE_GRID,
+    ),
+    Mutation(
+        "probe grid: little light is not crushed",
+        "include/probe_grid.glsl",
+        "return weight < 0.2 ?",
+        "return weight < 0.0 ?",
+        PROBE_GRID,
+    ),
+    Mutation(
+        "probe grid: the bias goes away from the viewer",
+        "include/probe_grid.glsl",
+        "- u_grid_step.w * incident",
+        "+ u_grid_step.w * incident",
+        PROBE_GRID,
+    ),
+    Mutation(
+        "probe grid: visibility at the surface, without a bias",
+        "include/probe_grid.glsl",
+        "vec3 from_node = bias - to_node;",
+        "vec3 from_node = -to_node;",
+        PROBE_GRID,
+    ),
+    Mutation(
+        "probe grid: the lower half of the octahedron is not folded",
+        "include/probe_grid.glsl",
+        "return d.z < 0.0 ? folded : p;",
+        "return p;",
+        PROBE_GRID,
+    ),
+    Mutation(
+        "probe grid: nodes in bodies count",
+        "include/probe_grid.glsl",
+        "weight *= awake ? grid_weight(node, to_node, normal, bias) : 2.5e-17;",
+        "weight *= grid_weight(node, to_node, normal, bias);",
+        PROBE_GRID,
+    ),
+    Mutation(
+        "probe grid: it does not fade outside",
+        "include/probe_grid.glsl",
+        "smoothstep(1.0, 2.0, outside)",
+        "0.0 * outside",
+        PROBE_GRID,
+    ),
+    Mutation(
+        "probe grid: order 2 as in radiance",
+        "resources/probe_grid_block.cpp",
+        "0.31539156525252005 / 4",
+        "0.31539156525252005",
+        PROBE_GRID,
+    ),
+    Mutation(
+        "probe grid: beyond an edge of a map lies the same edge, not mirrored",
+        "resources/probe_grid_block.cpp",
+        "if (off_j) from_i = size - 1 - from_i;",
+        "",
+        PROBE_GRID,
+    ),
+    Mutation(
+        "probe grid: a changed grid draws nothing again",
+        "graph/drawn_picture.cpp",
+        "picture.textures.push_back(scene.probe_grid->revision);",
+        "",
+        PROBE_GRID,
+    ),
+    Mutation(
+        "probe grid: the sky's irradiance counts in the first round",
+        "_grid_bake.py",
+        "self.coefficients = np.zeros_like(old[0])",
+        "scene.probe_grid = None",
+        PROBE_GRID,
+    ),
+    Mutation(
+        "probe grid: distances of light, not of light squared",
+        "_grid_bake.py",
+        "np.stack([far_off, far_off**2], axis=-1)",
+        "np.stack([far_off, far_off], axis=-1)",
+        PROBE_GRID,
+    ),
+    Mutation(
+        "probe grid: fronts count as backs",
+        "_grid_bake.py",
+        "made.add(drawn.mesh, _flat(0, double_sided=two)",
+        "made.add(drawn.mesh, _flat(1, double_sided=two)",
+        PROBE_GRID,
+    ),
+    Mutation(
+        "probe grid, reference: one cosine factor for all orders",
+        "shading/probe_grid.py",
+        "LOBE = (1.0, 2 / 3, 1 / 4)",
+        "LOBE = (1.0, 1.0, 1.0)",
+        GRID_REFERENCE,
+    ),
+    Mutation(
+        "probe grid, reference: Chebyshev's bound is not cubed",
+        "shading/probe_grid.py",
+        "bound**3",
+        "bound",
+        GRID_REFERENCE,
+    ),
+    Mutation(
+        "probe grid, reference: nodes behind a surface count alike",
+        "shading/probe_grid.py",
+        "((cosine + 1) / 2) ** 2 + 0.2",
+        "1.2 + 0 * cosine",
+        GRID_REFERENCE,
+    ),
+    Mutation(
+        "probe grid, reference: interpolation goes the wrong way",
+        "shading/probe_grid.py",
+        "np.where(corner, alpha, 1 - alpha)",
+        "np.where(corner, 1 - alpha, alpha)",
+        GRID_REFERENCE,
+    ),
+    Mutation(
+        "probe grid, reference: a seam at an edge of the map",
+        "shading/probe_grid.py",
+        "i2 = np.where(off_x, size - 1 - i2, i2)",
+        "",
+        GRID_REFERENCE,
     ),
     Mutation(
         "distances: a face upside down",
@@ -1451,7 +1686,7 @@ MUTATIONS = [
     ),
     Mutation(
         "GLSL: levels of the environment from behind",
-        "scene.glsl",
+        "include/environment.glsl",
         "textureLod(u_cube, hit.direction, level).rgb);\n#endif",
         "textureLod(u_cube, -hit.direction, level).rgb);\n#endif",
         ("tests/gl/test_shader_material.py",),

@@ -173,8 +173,8 @@ void bind_contents(Class<Node>& node) {
             const CubeSource environment = to_environment_source(value, "environment");
             self.edit([&](NodeValue& next) { next.environment = environment; });
         },
-        "CubeMap, Probe, PlanarMirror or None: what mirrors and glass show. None: the scene's "
-        "environment.");
+        "CubeMap, Probe, ProbeBlend, PlanarMirror or None: what mirrors and glass show. None: the "
+        "scene's environment.");
     node.def_property(
         "visible", [](const Node& self) { return self.value().visible; },
         [](Node& self, Flag value) { self.edit([&](NodeValue& next) { next.visible = value; }); },

@@ -33,6 +33,8 @@ constexpr NameTable<ProbeUpdate, 3> update_names{{{"on_change", ProbeUpdate::on_
 using ParallaxName = Choice<parallax_names>;
 using Fetches = NumberChoice<parallax_fetches>;
 
+using InfluenceShapeName = Choice<influence_shape_names>;
+
 using UpdateLike = OneOf<Choice<update_names>, WholeNumber>;
 using UpdateNow = OneOf<Choice<update_names>, int>;
 
@@ -64,9 +66,13 @@ Parallax to_parallax(const ParallaxName& name) {
     return parse_name("parallax", name, parallax_names);
 }
 
-std::optional<Bounds> to_box(const OrNone<ArrayLike>& box) {
+InfluenceShape to_influence_shape(const InfluenceShapeName& name) {
+    return parse_name("influence_shape", name, influence_shape_names);
+}
+
+std::optional<Bounds> to_box(const OrNone<ArrayLike>& box, const char* name = "box") {
     if (box.is_none()) return std::nullopt;
-    return to_bounds(box, "box");
+    return to_bounds(box, name);
 }
 
 std::optional<glm::dmat4> to_proxy_matrix(const OrNone<ArrayLike>& matrix) {
@@ -80,7 +86,8 @@ make_probe(const ArrayLike& position, Int size, Real near, Real far, const Forma
            const OrNone<Node>& parent, Int faces_per_frame, const DepthFormatName& depth_format,
            Argument<std::optional<bool>> prefilter, const ParallaxName& parallax,
            const OrNone<ArrayLike>& box, const OrNone<ArrayLike>& proxy_matrix, Fetches fetches,
-           Int bounces) {
+           Int bounces, const OrNone<ArrayLike>& influence,
+           const InfluenceShapeName& influence_shape, Real blend_distance) {
     ProbeValue value;
     value.position = to_point(position, "position");
     value.parent = to_shared_or_none<Node>(parent, "parent", "a Node or None");
@@ -100,6 +107,9 @@ make_probe(const ArrayLike& position, Int size, Real near, Real far, const Forma
     value.parallax.proxy_matrix = to_proxy_matrix(proxy_matrix);
     value.parallax.fetches = fetches;
     value.bounces = bounces;
+    value.influence.box = to_box(influence, "influence");
+    value.influence.shape = to_influence_shape(influence_shape);
+    value.influence.blend_distance = blend_distance;
     return std::make_shared<Probe>(std::move(value));
 }
 
@@ -155,6 +165,38 @@ void bind_parallax(Class<Probe>& probe) {
         "int: 6, 14 or 35 lookups of distance for a ray, at most.");
 }
 
+void bind_influence(Class<Probe>& probe) {
+    probe.def_property(
+        "influence",
+        [](const Probe& self) -> DoublesOrNone {
+            const auto box = self.value().influence.box;
+            return box ? py::object(bounds_array(*box)) : py::none();
+        },
+        [](Probe& self, const OrNone<ArrayLike>& value) {
+            const auto box = to_box(value, "influence");
+            self.edit([&](ProbeValue& next) { next.influence.box = box; });
+        },
+        "ndarray (2, 3) float64 or None: where the probe counts fully in a `ProbeBlend`, the low "
+        "and the high corner, in the world or in the space of `proxy_matrix`; None: everywhere; "
+        "read-only.");
+    probe.def_property(
+        "influence_shape",
+        [](const Probe& self) -> InfluenceShapeName {
+            return to_string(self.value().influence.shape);
+        },
+        [](Probe& self, const InfluenceShapeName& value) {
+            const InfluenceShape shape = to_influence_shape(value);
+            self.edit([&](ProbeValue& next) { next.influence.shape = shape; });
+        },
+        "str: \"box\", or \"sphere\": the ellipsoid that `influence` encloses.");
+    probe.def_property(
+        "blend_distance", [](const Probe& self) { return self.value().influence.blend_distance; },
+        [](Probe& self, Real value) {
+            self.edit([&](ProbeValue& next) { next.influence.blend_distance = value; });
+        },
+        "float: how far outside of `influence` the probe ceases to count, world units.");
+}
+
 void bind_links(Class<Probe>& probe) {
     probe.def_property(
         "parent", [](const Probe& self) { return or_none(self.value().parent.lock()); },
@@ -195,8 +237,9 @@ void bind_probe(pybind11::module_& module) {
               py::arg("parent") = py::none(), py::arg("faces_per_frame") = 6,
               py::arg("depth_format") = "depth_component32f", py::arg("prefilter") = py::none(),
               py::arg("parallax") = "none", py::arg("box") = py::none(),
-              py::arg("proxy_matrix") = py::none(), py::arg("fetches") = 14,
-              py::arg("bounces") = 1);
+              py::arg("proxy_matrix") = py::none(), py::arg("fetches") = 14, py::arg("bounces") = 1,
+              py::arg("influence") = py::none(), py::arg("influence_shape") = "box",
+              py::arg("blend_distance") = 1.0);
 
     probe.def_property(
         "position", [](const Probe& self) { return point_array(self.value().position); },
@@ -246,6 +289,7 @@ void bind_probe(pybind11::module_& module) {
           "int: how many mirrors of a circle of probes that see each other a path meets, from 1 to "
           "16.");
     bind_parallax(probe);
+    bind_influence(probe);
     bind_links(probe);
 
     probe.def("__repr__", [](const Probe& self) {
@@ -267,7 +311,7 @@ void bind_probe(pybind11::module_& module) {
                        attributes_of(self, "position", "size", "near", "far", "format", "mipmaps",
                                      "samples", "update", "faces_per_frame", "depth_format",
                                      "prefilter", "parallax", "box", "proxy_matrix", "fetches",
-                                     "bounces"),
+                                     "bounces", "influence", "influence_shape", "blend_distance"),
                        py::make_tuple(self.attr("parent"), self.attr("exclude")));
     });
     def_setstate(probe, "tuple", [](const py::object& self, const py::tuple& state) {

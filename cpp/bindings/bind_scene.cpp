@@ -22,6 +22,10 @@ namespace {
 
 using BackgroundLike = OneOf<py::str, ArrayLike, CubeMap, py::none>;
 
+std::shared_ptr<ProbeGrid> to_probe_grid(py::handle value) {
+    return to_shared_or_none<ProbeGrid>(value, "probe_grid", "a ProbeGrid or None");
+}
+
 std::shared_ptr<CubeMap> to_environment(py::handle value) {
     return to_shared_or_none<CubeMap>(value, "environment",
                                       "a CubeMap (see cubecam.load_environment) or None");
@@ -193,6 +197,7 @@ py::dict state_of(const Scene& scene) {
     const EnvironmentPlacing placing = scene.environment_placing();
     state["environment_intensity"] = placing.intensity;
     state["environment_rotation"] = quaternion_array(placing.rotation);
+    state["probe_grid"] = scene.probe_grid();
     state["lights"] = py::list(py::cast(scene.lights()));
     state["cameras"] = py::list(py::cast(scene.cameras()));
     state["animations"] = py::list(py::cast(scene.animations()));
@@ -213,6 +218,7 @@ void set_state(Scene& scene, const py::dict& state) {
         scene.set_environment_rotation(
             to_rotation(state["environment_rotation"], "environment_rotation"));
     }
+    if (state.contains("probe_grid")) scene.set_probe_grid(to_probe_grid(state["probe_grid"]));
     for (const py::handle light : state["lights"]) {
         scene.add(to_shared<Light>(light, "lights", "Lights"));
     }
@@ -321,6 +327,13 @@ void bind_scene(pybind11::module_& module) {
             self.set_environment(to_environment(value));
         },
         "CubeMap or None: what mirrors and glass without an environment of their own show.");
+    scene.def_property(
+        "probe_grid", [](const Scene& self) { return or_none(self.probe_grid()); },
+        [](Scene& self, const OrNone<ProbeGrid>& value) {
+            self.set_probe_grid(to_probe_grid(value));
+        },
+        "ProbeGrid or None: the light that falls on `StandardMaterial` from all around in its box, "
+        "in place of the environment's.");
     scene.def_property(
         "background", [](const Scene& self) { return from_background(self.background()); },
         [](Scene& self, const BackgroundLike& value) { self.set_background(to_background(value)); },

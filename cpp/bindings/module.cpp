@@ -7,6 +7,8 @@
 #include "cubecam/scene/node.hpp"
 #include "cubecam/scene/planar_mirror.hpp"
 #include "cubecam/scene/probe.hpp"
+#include "cubecam/scene/probe_blend.hpp"
+#include "cubecam/scene/probe_grid.hpp"
 #include "cubecam/scene/render_texture.hpp"
 #include "cubecam/scene/scene.hpp"
 
@@ -38,6 +40,8 @@ void bind_animation(pybind11::module_& module);
 void bind_stereo(pybind11::module_& module);
 void bind_probe(pybind11::module_& module);
 void bind_planar_mirror(pybind11::module_& module);
+void bind_probe_blend(pybind11::module_& module);
+void bind_probe_grid(pybind11::module_& module);
 void bind_render_texture(pybind11::module_& module);
 void bind_node(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
@@ -103,6 +107,8 @@ PYBIND11_MODULE(_core, module) {
     declare<Node>(module, "Node", nullptr);
     declare<Probe>(module, "Probe", nullptr);
     declare<PlanarMirror>(module, "PlanarMirror", nullptr);
+    declare<ProbeBlend>(module, "ProbeBlend", nullptr);
+    declare<ProbeGrid>(module, "ProbeGrid", nullptr);
     declare<RenderTexture>(module, "RenderTexture", nullptr);
     declare<Scene>(module, "Scene", nullptr);
 
@@ -125,6 +131,8 @@ PYBIND11_MODULE(_core, module) {
     bind_stereo(module);
     bind_probe(module);
     bind_planar_mirror(module);
+    bind_probe_blend(module);
+    bind_probe_grid(module);
     bind_render_texture(module);
     bind_node(module);
     bind_scene(module);

@@ -36,6 +36,8 @@ _DESCRIBED = (
     _core.Animation,
     _core.Probe,
     _core.PlanarMirror,
+    _core.ProbeBlend,
+    _core.ProbeGrid,
     _core.RenderTexture,
     _core.Camera,
     _core.StereoCamera,
@@ -109,6 +111,7 @@ def attach() -> None:
     _attach(Scene, "to_mitsuba", LateMethod("io.mitsuba.save", "to_mitsuba"))
     _attach(Scene, "show", LateMethod("viewer.viewer", "show_scene"))
     _attach(CubeMap, "show", LateMethod("viewer.cube_view", "show_cube"))
+    _attach(_core.ProbeGrid, "bake", LateMethod("_grid_bake", "bake"))
     for described in _DESCRIBED:
         _attach(described, "_repr_html_", LateMethod("pictures.objects", "repr_html"))
         _attach(described, "__rich__", LateMethod("pictures.objects", "rich_object"))

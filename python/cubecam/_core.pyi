@@ -37,6 +37,7 @@ from cubecam.typing import (
     FileLayout,
     FisheyeModel,
     Format,
+    InfluenceShape,
     Interpolation,
     Layout,
     MagFilter,
@@ -89,6 +90,8 @@ __all__: list[str] = [
     "PlanarMirror",
     "PointLight",
     "Probe",
+    "ProbeBlend",
+    "ProbeGrid",
     "RenderTexture",
     "Renderer",
     "Scene",
@@ -293,13 +296,13 @@ class Node:
         """
 
     @property
-    def environment(self) -> CubeMap | Probe | PlanarMirror | None:
+    def environment(self) -> CubeMap | Probe | ProbeBlend | PlanarMirror | None:
         """
-        CubeMap, Probe, PlanarMirror or None: what mirrors and glass show. None: the scene's environment.
+        CubeMap, Probe, ProbeBlend, PlanarMirror or None: what mirrors and glass show. None: the scene's environment.
         """
 
     @environment.setter
-    def environment(self, value: CubeMap | Probe | PlanarMirror | None) -> None: ...
+    def environment(self, value: CubeMap | Probe | ProbeBlend | PlanarMirror | None) -> None: ...
     @property
     def id(self) -> int:
         """
@@ -554,6 +557,14 @@ class Probe:
         1, the other mirrors of the circle show the environment in this one. All probes of a circle have the
         largest ``bounces`` among them, so none is preferred. Time and memory grow with it;
         ``renderer.stats.bounce_changes`` says how much each bounce changed. Without a circle it has no effect.
+    influence : array_like (2, 3), optional
+        Where the probe counts fully in a `ProbeBlend`: the low and the high corner, world units; in the space of
+        `proxy_matrix` if there is one. It does not move with the parent. None: everywhere. It matters to no other use of the probe.
+    influence_shape : {"box", "sphere"}
+        "sphere": the ellipsoid that `influence` encloses, a sphere if its edges are equal.
+    blend_distance : float
+        How far outside of `influence` the probe ceases to count, world units, above 0. Over this distance its weight falls from
+        1 to 0.
 
     Notes
     -----
@@ -568,8 +579,8 @@ class Probe:
     Raises
     ------
     ValueError
-        For a number out of its range, near >= far, another format, update or parallax, a proxy without a box, a box whose low
-        corner is not below its high one, a singular matrix, or a march without depths of 32 bits.
+        For a number out of its range, near >= far, another format, update, parallax or shape, a proxy without a box, a box or
+        influence whose low corner is not below its high one, a singular matrix, or a march without depths of 32 bits.
     TypeError
         For a parent or an excluded object that is not a node.
 
@@ -616,6 +627,9 @@ class Probe:
         proxy_matrix: np.typing.ArrayLike | None = None,
         fetches: Fetches = 14,
         bounces: typing.SupportsIndex = 1,
+        influence: np.typing.ArrayLike | None = None,
+        influence_shape: InfluenceShape = "box",
+        blend_distance: typing.SupportsFloat | typing.SupportsIndex = 1.0,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Probe) -> str: ...
@@ -634,6 +648,14 @@ class Probe:
         Give the HTML that Jupyter shows.
         """
 
+    @property
+    def blend_distance(self) -> float:
+        """
+        float: how far outside of `influence` the probe ceases to count, world units.
+        """
+
+    @blend_distance.setter
+    def blend_distance(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def bounces(self) -> int:
         """
@@ -698,6 +720,22 @@ class Probe:
 
     @format.setter
     def format(self, value: Format) -> None: ...
+    @property
+    def influence(self) -> np.typing.NDArray[np.float64] | None:
+        """
+        ndarray (2, 3) float64 or None: where the probe counts fully in a `ProbeBlend`, the low and the high corner, in the world or in the space of `proxy_matrix`; None: everywhere; read-only.
+        """
+
+    @influence.setter
+    def influence(self, value: np.typing.ArrayLike | None) -> None: ...
+    @property
+    def influence_shape(self) -> InfluenceShape:
+        """
+        str: "box", or "sphere": the ellipsoid that `influence` encloses.
+        """
+
+    @influence_shape.setter
+    def influence_shape(self, value: InfluenceShape) -> None: ...
     @property
     def mipmaps(self) -> bool:
         """
@@ -859,6 +897,300 @@ class PlanarMirror:
 
     @distance.setter
     def distance(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class ProbeBlend:
+    """
+    Several probes as the environment of a node: each point of its surface sees those that reach it.
+
+    Assign it to ``node.environment``. A probe counts fully in its `Probe.influence`, and less and less outside of it, until it
+    ceases to count at its ``blend_distance``. So what a ball reflects does not jump where it rolls from room to room,
+    and a long floor shows each room in its part of it. Every material that looks up its environment shows the blend:
+    `MirrorMaterial`, `StandardMaterial`, `GlassMaterial`, and a `ShaderMaterial`, in which ``environment_at(position,
+    direction)`` sees the probes that reach `position`. Each probe keeps its own parallax, levels by roughness and irradiance.
+
+    With t the distance of a point from the influence of probe i over its ``blend_distance``, the influence is
+    ``w_i = 1 - 3 t^2 + 2 t^3``, 1 inside and 0 from t = 1 on. The weight of a probe is ``w_i / max(1, sum w)``. The
+    scene's environment, black without one, has the rest, ``1 - min(1, sum w)``: it shows where no influence reaches. The
+    weights sum to 1 and are continuous, and so are their slopes, except where the sum of the influences becomes 1.
+
+    The probes do not show the nodes that use the blend, whether they reach them or not.
+
+    Parameters
+    ----------
+    probes : iterable of Probe
+        Any number, each once. Of these at most 4 may reach the bounds of one node; a picture of a scene
+        where more do raises ValueError. Only probes that reach a node which is drawn are drawn.
+
+    Raises
+    ------
+    ValueError
+        For no probe, or one that occurs twice.
+    TypeError
+        For what is no probe.
+
+    Notes
+    -----
+    The proxy of a probe with ``parallax="box"`` or ``"sphere"`` should contain its influence with the blend distance: a
+    point outside of the proxy sees the cube as if it were infinitely far away, which jumps at the proxy's side.
+
+    ``environment_levels``, ``environment_is_local`` and ``environment_position`` of a `ShaderMaterial` are those of the first
+    probe that reaches the node. For the limit, a probe reaches a node if the box around its influence, with the
+    blend distance on all sides, overlaps ``node.world_bounds``. Each further probe costs the lookups of one more
+    environment for every pixel of the node.
+
+    Examples
+    --------
+    Two rooms that meet at x = 0:
+
+    >>> import cubecam as cc
+    >>> left = cc.Probe((-4, 1, 0), influence=((-8, 0, -3), (0, 3, 3)), blend_distance=.5)
+    >>> right = cc.Probe((4, 1, 0), influence=((0, 0, -3), (8, 3, 3)), blend_distance=.5)
+    >>> scene = cc.Scene()
+    >>> ball = scene.add(cc.Mesh.sphere(.5), cc.MirrorMaterial(), position=(-2, 1, 0))
+    >>> ball.environment = cc.ProbeBlend([left, right])
+    >>> len(ball.environment.probes)
+    2
+    """
+
+    def __init__(self: ProbeBlend, probes: collections.abc.Iterable[Probe]) -> None: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
+    def __repr__(self: ProbeBlend) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
+    @property
+    def probes(self) -> tuple[Probe, ...]:
+        """
+        tuple of Probe: in the order in which they were given.
+        """
+
+class ProbeGrid:
+    """
+    Light from all around at the nodes of a grid in a box, for surfaces in between.
+
+    Assign it to ``scene.probe_grid`` and call `bake`. The diffuse part of `StandardMaterial`, its sheen, and
+    ``environment_irradiance(normal)`` of a `ShaderMaterial` then see the light that the nodes around a point captured, in place
+    of the irradiance of their environment; what they reflect is still that of the environment. Walls may lie outside
+    of the box: the light of its border counts up to one cell outside, and from there fades to that of the environment
+    within another cell.
+
+    Parameters
+    ----------
+    box : array_like (2, 3)
+        The low and the high corner, world units: the first and the last node.
+    counts : (int, int, int)
+        Nodes along x, y and z, each at least 2.
+    size : int
+        Texels along an edge of the cubemaps that `bake` captures, from 1 to 128.
+    resolution : int
+        Texels along an edge of the octahedral map of distances of each node, from 4 to 32.
+    visibility : bool
+        True: a node counts less where it does not see a point, and where it lies behind the point's surface. False:
+        trilinear interpolation alone, by which light leaks through walls.
+    normal_bias, view_bias : float
+        The visibility of a point counts at a place before its surface: so far along its normal and towards the viewer, in
+        least steps of the grid, at least 0. Too little darkens surfaces by themselves, too much lets light through thin walls.
+
+    Notes
+    -----
+    Z. Majercik et al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields", JCGT 8(2), 2019. Of the eight
+    nodes round a point each has the product of its trilinear weight and w. With c the cosine of the angle between the
+    normal and the way to the node, d the distance from the node to the biased point, m and s the means of the distance
+    and of its square that the node captured in that direction, and v = abs(m^2 - s), w is ((1 + c) / 2)^2 + .2,
+    times (v / (v + (d - m)^2))^3 where d > m; a w below .2 becomes w^3 / .04. The light of a node are spherical
+    harmonics of orders 0 to 2, as `CubeMap.sh` gives them, with the cosine's factors 1, 2/3 and 1/4 (R. Ramamoorthi and P.
+    Hanrahan, SIGGRAPH 2001); a sum below 0 counts as 0.
+
+    Without visibility a field of light that is linear in space is exact between the nodes. With it, it is not: nodes
+    before a surface count more than those beside it.
+
+    The arrays are the grid: they may be set, and are kept by pickles and saved scenes. Setting a bias or the visibility needs no
+    new bake.
+
+    Raises
+    ------
+    ValueError
+        For an empty box, a number out of its range, a grid that is too large for a texture, or arrays of another shape.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> scene = cc.Scene(background=(1, 1, 1))
+    >>> scene.probe_grid = cc.ProbeGrid(((-1, 0, -1), (1, 2, 1)), (2, 2, 2), size=8)
+    >>> with cc.Renderer() as renderer:
+    ...     scene.probe_grid.bake(renderer, scene)
+    >>> scene.probe_grid.coefficients.shape, scene.probe_grid.distances.shape
+    ((2, 2, 2, 9, 3), (2, 2, 2, 16, 16, 2))
+    """
+
+    def __init__(
+        self: ProbeGrid,
+        box: np.typing.ArrayLike,
+        counts: tuple[
+            typing.SupportsInt | typing.SupportsIndex,
+            typing.SupportsInt | typing.SupportsIndex,
+            typing.SupportsInt | typing.SupportsIndex,
+        ],
+        *,
+        size: typing.SupportsIndex = 32,
+        resolution: typing.SupportsIndex = 16,
+        visibility: bool = True,
+        normal_bias: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        view_bias: typing.SupportsFloat | typing.SupportsIndex = 0.2,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
+    def __repr__(self: ProbeGrid) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def __setstate__(self: ProbeGrid, state: object) -> None:
+        """
+        For unpickling.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
+    def bake(
+        self,
+        renderer: Renderer,
+        scene: Scene,
+        *,
+        bounces: int = 1,
+        exclude: collections.abc.Iterable[Node] = tuple(),
+        near: float = 0.01,
+        far: float = 1000.0,
+        progress: collections.abc.Callable[[int, int], object] | None = None,
+    ) -> None:
+        """
+        Capture a scene at all nodes of the grid, and keep what they see.
+
+        With one bounce a node sees lamps, sky and emission, and surfaces as lights alone light them. With more, surfaces
+        of later rounds have the light of the round before as well, and so paths of one more reflection. In the first round
+        the grid is black: the irradiance of the scene's environment, which does not know of walls, counts nowhere in the
+        box.
+
+        Nodes that lie in bodies are not `ProbeGrid.active`: those that see the backs of single-sided surfaces in more than
+        a quarter of all directions. They get the mean light of the active nodes beside them.
+
+        Parameters
+        ----------
+        renderer : Renderer
+            What captures.
+        scene : Scene
+            What is captured; its `Scene.probe_grid` is this one meanwhile, and afterwards what it was.
+        bounces : int
+            How many reflections by surfaces paths have at most, from 1 to 16.
+        exclude : iterable of Node
+            Nodes that are left out with all nodes below them, for example those that move.
+        near, far : float
+            Clip distances of the captures, world units, 0 < near < far.
+        progress : callable, optional
+            Called after each capture with how many are done and how many there are. If it raises, the grid stays as it was.
+
+        Raises
+        ------
+        TypeError, ValueError, ContextError
+            As `Renderer.capture` raises, and for bounces out of their range.
+
+        Examples
+        --------
+        A white sky lights a matt surface alike from all around:
+
+        >>> import cubecam as cc
+        >>> scene = cc.Scene(background=(1, 1, 1))
+        >>> grid = cc.ProbeGrid(((-1, 0, -1), (1, 2, 1)), (2, 2, 2), size=8)
+        >>> with cc.Renderer() as renderer:
+        ...     grid.bake(renderer, scene)
+        >>> (grid.coefficients[0, 0, 0, 0] / (4 * 3.14159265) ** 0.5).round(4).tolist()
+        [1.0, 1.0, 1.0]
+        """
+
+    @property
+    def active(self) -> np.typing.NDArray[np.bool_]:
+        """
+        ndarray (nz, ny, nx) bool: False for nodes that lie in bodies, which count only where no other node does; read-only.
+        """
+
+    @active.setter
+    def active(self, value: np.typing.ArrayLike) -> None: ...
+    @property
+    def box(self) -> np.typing.NDArray[np.float64]:
+        """
+        ndarray (2, 3) float64: the first and the last node, world; read-only.
+        """
+
+    @property
+    def coefficients(self) -> np.typing.NDArray[np.float32]:
+        """
+        ndarray (nz, ny, nx, 9, 3) float32: integrals of radiance times the basis of `CubeMap.sh` at each node; read-only.
+        """
+
+    @coefficients.setter
+    def coefficients(self, value: np.typing.ArrayLike) -> None: ...
+    @property
+    def counts(self) -> tuple[int, int, int]:
+        """
+        tuple of three int: nodes along x, y and z.
+        """
+
+    @property
+    def distances(self) -> np.typing.NDArray[np.float32]:
+        """
+        ndarray (nz, ny, nx, R, R, 2) float32: means of the distance and of its square round the directions of an octahedral map of R = `resolution`, world units; read-only.
+        """
+
+    @distances.setter
+    def distances(self, value: np.typing.ArrayLike) -> None: ...
+    @property
+    def normal_bias(self) -> float:
+        """
+        float: how far before its surface the visibility of a point counts, in least steps.
+        """
+
+    @normal_bias.setter
+    def normal_bias(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def resolution(self) -> int:
+        """
+        int: texels along an edge of the map of distances of a node.
+        """
+
+    @property
+    def size(self) -> int:
+        """
+        int: texels along an edge of the cubemaps that `bake` captures.
+        """
+
+    @size.setter
+    def size(self, value: typing.SupportsIndex) -> None: ...
+    @property
+    def view_bias(self) -> float:
+        """
+        float: how far towards the viewer the visibility of a point counts, in least steps.
+        """
+
+    @view_bias.setter
+    def view_bias(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def visibility(self) -> bool:
+        """
+        bool: whether nodes that do not see a point count less there.
+        """
+
+    @visibility.setter
+    def visibility(self, value: bool) -> None: ...
 
 class RenderTexture:
     """
@@ -1268,7 +1600,7 @@ class Scene:
         scale: float | np.typing.ArrayLike | None = None,
         matrix: np.typing.ArrayLike | None = None,
         parent: Node | None = None,
-        environment: CubeMap | Probe | PlanarMirror | None = None,
+        environment: CubeMap | Probe | ProbeBlend | PlanarMirror | None = None,
         visible: bool = True,
         in_captures: bool = True,
         name: str = "",
@@ -1298,7 +1630,7 @@ class Scene:
             Node to parent, in place of position, rotation and scale: not singular, last row (0, 0, 0, 1).
         parent : Node, optional
             A node of this scene that the new node moves with.
-        environment : CubeMap, Probe or PlanarMirror, optional
+        environment : CubeMap, Probe, ProbeBlend or PlanarMirror, optional
             The surroundings that mirrors and glass show on this node. None: the scene's environment.
         visible : bool
             False: no picture shows the node or any node below it.
@@ -1799,6 +2131,14 @@ class Scene:
         tuple of Node: all nodes of the scene, in order of id.
         """
 
+    @property
+    def probe_grid(self) -> ProbeGrid | None:
+        """
+        ProbeGrid or None: the light that falls on `StandardMaterial` from all around in its box, in place of the environment's.
+        """
+
+    @probe_grid.setter
+    def probe_grid(self, value: ProbeGrid | None) -> None: ...
     @property
     def variant(self) -> str | None:
         """

@@ -54,6 +54,7 @@ __all__ = [
     "FilePixels",
     "FisheyeModel",
     "Format",
+    "InfluenceShape",
     "Interpolation",
     "Layout",
     "MagFilter",
@@ -150,6 +151,7 @@ MinFilter: TypeAlias = Literal[
 Output: TypeAlias = Literal["color", "distance", "normal", "id"]
 Place: TypeAlias = Literal["notebook", "page", "window", "terminal", "offscreen"]
 Parallax: TypeAlias = Literal["none", "box", "sphere", "distance", "layers"]
+InfluenceShape: TypeAlias = Literal["box", "sphere"]
 ProbeUpdate: TypeAlias = Literal["on_change", "once", "manual"]
 Sampling: TypeAlias = Literal["centers", "borders"]
 SpecularMode: TypeAlias = Literal["levels", "sampled"]

@@ -1,7 +1,7 @@
+// One environment. For several, a program has this text once for each, with numbers behind its names
+// (cpp/cubecam/render/passes/environment_text.hpp), and include/environment_blend.glsl.
 #include "include/cube_place.glsl"
-#if defined(ENVIRONMENT_FETCHES) || defined(BODY)
 #include "include/crossing.glsl"
-#endif
 #include "include/screen.glsl"
 
 layout(binding = 1) uniform samplerCube u_cube;
@@ -66,6 +66,7 @@ vec3 environment_from(vec3 from_origin, vec3 direction_world) {
 }
 
 #include "include/planar_mirror.glsl"
+#include "include/probe_grid.glsl"
 
 // The same at the surface, which may be a planar mirror; what the frame shows counts first.
 vec3 environment(vec3 direction_world) {
@@ -77,21 +78,26 @@ vec3 environment(vec3 direction_world) {
 // The same environment with levels that are averages of boxes of texels.
 layout(binding = 4) uniform samplerCube u_box_mipmaps;
 
-vec3 environment_mip(vec3 direction_world, float lod) {
-    // Half the width of a texel of this level, in the middle of a face whose half is 1 wide.
-    float spread = exp2(lod) / float(textureSize(u_box_mipmaps, 0).x);
-    look_from_surface(direction_world, spread);
-    EnvironmentHit hit = environment_met(v_position, direction_world);
+vec3 environment_mip_from(vec3 from_origin, vec3 direction_world, float lod) {
+    EnvironmentHit hit = environment_met(from_origin, direction_world);
     float level = lod + log2(max(hit.spread, 1e-30));
     vec3 light = textureLod(u_box_mipmaps, hit.direction, level).rgb;
 #ifdef ENVIRONMENT_LAYERS
     if (hit.farthest) light = textureLod(u_farthest, hit.direction, level).rgb;
 #endif
-    return or_screen(or_planar_mirror(environment_scaled(light), direction_world, spread, 0.0));
+    return environment_scaled(light);
 }
 
 // Texels along an edge of level 0.
 float environment_size() { return float(textureSize(u_box_mipmaps, 0).x); }
+
+vec3 environment_mip(vec3 direction_world, float lod) {
+    // Half the width of a texel of this level, in the middle of a face whose half is 1 wide.
+    float spread = exp2(lod) / environment_size();
+    look_from_surface(direction_world, spread);
+    vec3 light = environment_mip_from(v_position, direction_world, lod);
+    return or_screen(or_planar_mirror(light, direction_world, spread, 0.0));
+}
 #endif
 
 #ifdef USES_FILTERED_ENVIRONMENT
@@ -142,7 +148,7 @@ vec3 environment_seen(vec3 direction, float level) {
 
 // The mean of the radiance around a direction, weighted by the cosine: irradiance / pi.
 // A planar mirror shows no irradiance, so that this is that of the scene's environment.
-vec3 environment_irradiance(vec3 normal_world) {
+vec3 environment_around(vec3 normal_world) {
     vec3 normal = environment_in_cube(normal_world);
     return environment_scaled(environment_place(u_environment_places[0], cube_place(normal)));
 }
@@ -154,10 +160,13 @@ float environment_level_of(float roughness) {
 
 vec3 environment_seen(vec3 direction, float level) { return textureLod(u_cube, direction, level).rgb; }
 
-vec3 environment_irradiance(vec3 normal_world) {
+vec3 environment_around(vec3 normal_world) {
     return environment_scaled(environment_seen(environment_in_cube(normal_world), environment_level_of(1.0)));
 }
 #endif
+
+// The same, or that of the scene's grid of probes.
+vec3 environment_irradiance(vec3 normal_world) { return or_probe_grid(environment_around(normal_world), normal_world); }
 
 // The radiance that comes to a point round a direction, filtered by the lobe of GGX for a roughness from 0 (the cube
 // itself) to 1.
@@ -183,5 +192,44 @@ vec3 environment_filtered(vec3 direction_world, float roughness) {
     look_from_surface(direction_world, screen_spread(roughness));
     vec3 light = environment_filtered_from(v_position, direction_world, roughness);
     return or_screen(or_planar_mirror(light, direction_world, planar_mirror_spread(roughness), 0.0));
+}
+#endif
+
+#ifdef USER_SOURCE
+// The environment at a chosen level of detail; 0 is the finest. The levels of a filtered environment are those of its
+// roughnesses.
+vec3 environment_lod_from(vec3 from_origin, vec3 direction_world, float level) {
+    EnvironmentHit hit = environment_met(from_origin, direction_world);
+#ifdef ENVIRONMENT_FILTERED
+    return environment_scaled(environment_seen(hit.direction, level));
+#else
+    return environment_scaled(textureLod(u_cube, hit.direction, level).rgb);
+#endif
+}
+
+// How wide what a level shows is: half of it over its distance.
+float environment_lod_spread(float level) {
+#ifdef ENVIRONMENT_FILTERED
+    return screen_spread(level / float(max(u_environment_levels.x - 1, 1)));
+#else
+    return level <= 0.0 ? 0.0 : exp2(level) / float(textureSize(u_cube, 0).x);
+#endif
+}
+
+vec3 environment_lod(vec3 direction_world, float level) {
+    look_from_surface(direction_world, environment_lod_spread(level));
+    vec3 light = environment_lod_from(v_position, direction_world, level);
+    return or_screen(or_planar_mirror(light, direction_world, 0.0, level));
+}
+
+// The number of levels of the environment: 1 without mipmaps or filtered levels, 0 without an environment.
+int environment_levels() { return u_environment_levels.x; }
+
+// Whether a probe captured the environment in this world. Otherwise it is a photograph, which is infinitely far away.
+bool environment_is_local() { return u_environment_position.w != 0.0; }
+
+// The world position where the environment was captured; for a photograph the world's origin.
+vec3 environment_position() {
+    return environment_is_local() ? u_environment_position.xyz + u_origin.xyz : vec3(0.0);
 }
 #endif

@@ -24,24 +24,6 @@ struct Vertex {
 #else
 vec3 eye_position() { return v_eye.xyz + u_origin.xyz; }
 
-// The environment at a chosen level of detail; 0 is the finest. The levels of a filtered environment are those of its
-// roughnesses.
-vec3 environment_lod(vec3 direction_world, float level) {
-#ifdef ENVIRONMENT_FILTERED
-    look_from_surface(direction_world, screen_spread(level / float(max(u_environment_levels.x - 1, 1))));
-#else
-    // Half the width of a texel of this level.
-    look_from_surface(direction_world, level <= 0.0 ? 0.0 : exp2(level) / float(textureSize(u_cube, 0).x));
-#endif
-    EnvironmentHit hit = environment_met(v_position, direction_world);
-#ifdef ENVIRONMENT_FILTERED
-    vec3 light = environment_scaled(environment_seen(hit.direction, level));
-#else
-    vec3 light = environment_scaled(textureLod(u_cube, hit.direction, level).rgb);
-#endif
-    return or_screen(or_planar_mirror(light, direction_world, 0.0, level));
-}
-
 // The light that reaches a world position from a direction: `environment` for another place than the surface. What a planar
 // mirror shows belongs to its surface.
 vec3 environment_at(vec3 position_world, vec3 direction_world) {
@@ -53,17 +35,6 @@ vec3 environment_at(vec3 position_world, vec3 direction_world) {
 // Scale and bias of F0: the reflectance of a GGX surface under uniform light is F0 * x + y.
 vec2 brdf(float n_dot_v, float roughness) { return brdf_terms(n_dot_v, roughness).xy; }
 #endif
-
-// The number of levels of the environment: 1 without mipmaps or filtered levels, 0 without an environment.
-int environment_levels() { return u_environment_levels.x; }
-
-// Whether a probe captured the environment in this world. Otherwise it is a photograph, which is infinitely far away.
-bool environment_is_local() { return u_environment_position.w != 0.0; }
-
-// The world position where the environment was captured; for a photograph the world's origin.
-vec3 environment_position() {
-    return environment_is_local() ? u_environment_position.xyz + u_origin.xyz : vec3(0.0);
-}
 
 // The sum of the scene's ambient lights.
 vec3 ambient_light() { return u_ambient.rgb; }

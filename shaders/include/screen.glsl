@@ -199,6 +199,7 @@ float screen_spread(float roughness) {
 #else
 #define look_at_screen(from_origin, direction_world, spread)
 #define look_from_surface(direction_world, spread)
+#define screen_spread(roughness) 0.0
 #define screen_knows() false
 #define or_screen(light) light
 #endif

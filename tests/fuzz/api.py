@@ -65,6 +65,8 @@ OBJECTS = {
     "RenderTexture": ["w.screen"],
     "Probe": ["w.probe", "cc.Probe(size=2)"],
     "PlanarMirror": ["cc.PlanarMirror()"],
+    "ProbeBlend": ["cc.ProbeBlend([w.probe])"],
+    "ProbeGrid": ["cc.ProbeGrid(((-1, -1, -1), (1, 1, 1)), (2, 2, 2), size=2, resolution=4)"],
     "MorphTarget": ["w.target"],
     "Skin": ["w.skin"],
     "Animation": ["w.animation"],

@@ -170,7 +170,7 @@ def cube_of(world, rng, thing):
 def environment_of(world, rng, thing):
     """A planar mirror only for a flat node, the one that has one at first."""
     mirrors = world.mirrors if thing.name == "pane" else []
-    return one(rng, None, *world.cubes, *world.probes, *mirrors)
+    return one(rng, None, *world.cubes, *world.probes, *mirrors, *world.blends)
 
 
 def scene_of(world, rng, thing):
@@ -269,6 +269,7 @@ VALUES = {
     "Node.weights": lambda world, rng, thing: rng.uniform(-0.5, 1, len(thing.weights)),
     "PlanarMirror.bounces": choice(1, 2, 3),
     "PlanarMirror.distance": number(0.1, 3),
+    "Probe.blend_distance": number(0.1, 2),
     "Probe.bounces": choice(1, 2, 3),
     "Probe.box": choice(((-1, -1, -2), (2, 1, 1)), ((-0.5, -1, -1), (1, 2, 1))),
     "Probe.depth_format": probe_depth,
@@ -277,6 +278,8 @@ VALUES = {
     "Probe.far": number(1, 20),
     "Probe.fetches": choice(6, 14, 35),
     "Probe.format": choice(*FORMATS),
+    "Probe.influence": choice(None, ((-1, -1, -2), (0.2, 1, 1)), ((-0.5, -1, -1), (1, 2, 1))),
+    "Probe.influence_shape": choice("box", "sphere"),
     "Probe.mipmaps": flag,
     "Probe.near": number(0.01, 0.6),
     "Probe.parallax": probe_parallax,
@@ -299,11 +302,19 @@ VALUES = {
     "RenderTexture.samples": choice(1, 4),
     "RenderTexture.scene": scene_of,
     "RenderTexture.size": lambda world, rng, thing: tuple(rng.integers(6, 20, 2).tolist()),
+    "ProbeGrid.active": lambda world, rng, thing: rng.random(thing.active.shape) < 0.7,
+    "ProbeGrid.coefficients": lambda world, rng, thing: rng.random(thing.coefficients.shape),
+    "ProbeGrid.distances": lambda world, rng, thing: rng.random(thing.distances.shape),
+    "ProbeGrid.normal_bias": number(0, 0.5),
+    "ProbeGrid.size": choice(4, 8),
+    "ProbeGrid.view_bias": number(0, 0.5),
+    "ProbeGrid.visibility": flag,
     "RenderTexture.wrap": choice("clamp", "repeat", "mirror"),
     "Scene.background": lambda world, rng, thing: one(rng, None, rng.random(4), *world.cubes),
     "Scene.environment": lambda world, rng, thing: one(rng, None, random_cube(rng), *world.cubes),
     "Scene.environment_intensity": number(0, 2),
     "Scene.environment_rotation": lambda world, rng, thing: rng.normal(size=4),
+    "Scene.probe_grid": lambda world, rng, thing: one(rng, None, *world.grids),
     "Scene.variant": variant,
     "Scene.variants": choice((), ("day", "night"), ("night", "dusk")),
     "Mesh.colors": lambda world, rng, thing: one(rng, None, rng.random(thing.positions.shape)),
@@ -529,6 +540,11 @@ def edit(name, world, rng, draw):
 def method_set_face(world, rng, draw):
     cube = one(rng, *world.cubes)
     cube.set_face(int(rng.integers(6)), rng.random((4, 4, 3)).astype(np.float32))
+
+
+def method_bake_a_grid(world, rng, draw):
+    with cc.Renderer() as renderer:
+        one(rng, *world.grids).bake(renderer, cc.Scene(background=rng.random(3)))
 
 
 def method_add_node(world, rng, draw):

@@ -92,6 +92,8 @@ class FullWorld:
     textures: list = field(default_factory=list)
     probes: list = field(default_factory=list)
     mirrors: list = field(default_factory=list)
+    blends: list = field(default_factory=list)
+    grids: list = field(default_factory=list)
     materials: list = field(default_factory=list)  # at first, whatever the nodes have later
 
     @property
@@ -111,6 +113,7 @@ class FullWorld:
             *self.textures,
             *self.probes,
             *self.mirrors,
+            *self.grids,
             *self.cubes,
             *self.images,
             *self.meshes,
@@ -177,6 +180,14 @@ def full_world(rng):
         cc.Probe(size=8, format="rgba8"),
     ]
     mirror, glass, shown = world.probes
+    for probe, low, high in ((mirror, -1, 0.5), (glass, 0, 2)):
+        probe.influence = (low, -2, -2), (high, 2, 2)
+    world.blends = [cc.ProbeBlend([mirror, glass])]
+    grid = cc.ProbeGrid(((-2, -1.5, -2), (2, 1.5, 2)), (3, 2, 2), size=4, resolution=4)
+    grid.coefficients = np.random.default_rng(5).random(grid.coefficients.shape)
+    grid.distances = 1 + np.random.default_rng(6).random(grid.distances.shape)
+    world.grids = [grid]
+    scene.probe_grid = grid
     shown_colors = cc.BasicMaterial(vertex_colors=True)
     scene.add(meshes[0], shown_colors, skin=cc.Skin(joints), weights=[0.5], name="bent")
     scene.add(box, cc.BasicMaterial(map=images[0]), position=(-1.2, -0.4, -0.8), parent=group)
@@ -184,6 +195,7 @@ def full_world(rng):
     scene.add(ball, cc.MirrorMaterial(), position=(0.2, 0, 0.2), environment=mirror, scale=1.3)
     scene.add(ball, cc.GlassMaterial(), position=(-1, 0.3, 0.5), environment=glass)
     scene.add(ball, cc.MirrorMaterial(env_weight=0.7), position=(1, -0.5, 1))
+    scene.add(ball, cc.MirrorMaterial(), position=(0.4, 0.5, 1.4), environment=world.blends[0])
     scene.add(
         ball,
         cc.GlassMaterial(roughness=0.5, surfaces=2),

@@ -93,6 +93,8 @@ def instances(world, renderer):
         *world.textures,
         *world.probes,
         *world.mirrors,
+        *world.blends,
+        *world.grids,
         *world.effects,
     ]
     found += [

@@ -685,7 +685,8 @@ def test_only_the_environment_of_a_node_may_be_one():
     with pytest.raises(TypeError, match="environment"):
         cc.Scene(environment=cast("cc.CubeMap", mirror))
     with pytest.raises(
-        TypeError, match=r"environment: expected a CubeMap .*, a Probe, a PlanarMirror or None"
+        TypeError,
+        match=r"environment: expected a CubeMap .*, a Probe, a ProbeBlend, a PlanarMirror or None",
     ):
         cc.Scene().add(pane(), environment=cast("cc.Probe", 3))
 

@@ -150,6 +150,34 @@ class TestReflection:
 
 
 @pytest.mark.slow
+class TestSeveralProbes:
+    NAME = "docs/howto/several_probes.md"
+
+    def test_the_rooms_are_lit_as_the_page_says(self, pages):
+        _, scope = pages(self.NAME)
+        lit, door, dark = (strip.astype(float) / 255 for strip in scope["strips"])
+        assert lit.mean() > door.mean() > dark.mean() > 0.02
+        grid = scope["scene"].probe_grid
+        assert grid.active.size == 108
+        light = grid.coefficients[..., 0, :].mean(axis=(0, 1, 3))
+        assert light[0] > 5 * light[-1] > 0  # from the lit room to the dark one
+
+    def test_leaving_out_visibility_leaks(self, pages):
+        _, scope = pages(self.NAME)
+        scene, ball = scope["scene"], scope["ball"]
+        camera = cc.PerspectiveCamera(position=(2, 1.5, -1.5), target=(0.1, 1.5, -1.5), fov=50)
+        ball.visible = False
+        means = []
+        with cc.Renderer() as renderer:
+            for visibility in (True, False):
+                scene.probe_grid.visibility = visibility
+                means.append(
+                    renderer.render(scene, camera, (40, 30), format="rgba32f").color[..., :3].mean()
+                )
+        assert means[1] > 1.8 * means[0]
+
+
+@pytest.mark.slow
 class TestPlots:
     NAME = "docs/howto/plots.md"
 

@@ -71,6 +71,12 @@ def demo_scene():
     return demo.build_scene(environment=cube(), probe_size=2)
 
 
+@functools.cache
+def baking():
+    """A renderer for calls that take one."""
+    return cc.Renderer()
+
+
 #: An object of a class whose methods and properties are used.
 OBJECTS: dict[str, Any] = {
     "Node": node,
@@ -81,6 +87,8 @@ OBJECTS: dict[str, Any] = {
     "Camera": lambda: cc.Camera(view=np.eye(4), projection=np.eye(4)),
     "StereoCamera": lambda: cc.StereoCamera(cc.PerspectiveCamera(), cc.PerspectiveCamera()),
     "RenderTexture": lambda: cc.RenderTexture(cc.Scene(), cc.PerspectiveCamera()),
+    "ProbeBlend": lambda: cc.ProbeBlend([cc.Probe(size=2)]),
+    "ProbeGrid": lambda: cc.ProbeGrid(((0, 0, 0), (1, 1, 1)), (2, 2, 2), size=1, resolution=4),
     "ShaderMaterial": lambda: cc.ShaderMaterial(SHADE),
     "ImageEffect": lambda: cc.ImageEffect(EFFECT),
     "AnimationChannel": channel,
@@ -92,6 +100,9 @@ OBJECTS: dict[str, Any] = {
 NEEDED: dict[str, Any] = {
     "Node.look_at": lambda: {"target": (9, 9, 9)},
     "RenderTexture": lambda: {"scene": cc.Scene(), "camera": cc.PerspectiveCamera()},
+    "ProbeBlend": lambda: {"probes": [cc.Probe(size=2)]},
+    "ProbeGrid": lambda: {"box": ((0, 0, 0), (1, 1, 1)), "counts": (2, 2, 2), "resolution": 4},
+    "ProbeGrid.bake": lambda: {"renderer": baking(), "scene": cc.Scene()},
     "Scene.__contains__": dict,
     "Scene.__getitem__": dict,
     "Scene.remove": dict,

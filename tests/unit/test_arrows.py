@@ -49,6 +49,7 @@ PYTHON_ORDER = (
     "_nodes",  # which nodes are shown
     "_rotations",  # matrices of quaternions
     "_drawn_meshes",  # meshes with their morph targets and skins
+    "_grid_bake",  # what the nodes of a grid of probes capture
     "io",
     "pictures",
     "_array_protocol",

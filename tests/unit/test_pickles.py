@@ -244,6 +244,8 @@ MAKE = {
     "StereoCamera": lambda: cc.StereoCamera(lens(), lens(fov=20), layout="top_bottom"),
     "Probe": lambda: cc.Probe((1, 2, 3), size=16, update=3, faces_per_frame=2, bounces=3),
     "PlanarMirror": lambda: cc.PlanarMirror(bounces=3, distance=0.5),
+    "ProbeBlend": lambda: cc.ProbeBlend([cc.Probe((1, 2, 3), size=16)]),
+    "ProbeGrid": lambda: cc.ProbeGrid(((0, 0, 0), (1, 1, 1)), (2, 3, 2), view_bias=0.5),
     "RenderTexture": lambda: cc.RenderTexture(cc.Scene(), lens(), size=(3, 4), name="screen"),
     "Scene": lambda: cc.Scene(background=(1, 0, 0)),
     "Node": lambda: cc.Scene().add(name="n"),
@@ -282,6 +284,8 @@ def test_both_lists_hold_every_class_that_pickles():
         "AnimationChannel",
         "Animation",
         "PlanarMirror",
+        "ProbeBlend",
+        "ProbeGrid",
         "Node with a skin",
     }
     assert set(OLD_PICKLES) == set(MAKE) - new_since_0_1

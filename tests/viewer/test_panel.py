@@ -32,6 +32,7 @@ MAKERS: dict[str, Any] = {
     "PhongMaterial": cc.PhongMaterial,
     "PointLight": lambda: cc.PointLight((1, 2, 3)),
     "PlanarMirror": cc.PlanarMirror,
+    "ProbeGrid": lambda: cc.ProbeGrid(((-1, -1, -1), (1, 1, 1)), (2, 2, 2)),
     "Probe": lambda: cc.Probe((0, 1, 0), box=((-1, -1, -1), (1, 1, 1))),
     "RenderTexture": lambda: cc.RenderTexture(cc.Scene(), cc.PerspectiveCamera(), size=(8, 4)),
     "Scene": lambda: cc.Scene(background=(0.25, 0.5, 1)),

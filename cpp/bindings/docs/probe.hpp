@@ -64,6 +64,14 @@ bounces : int
     1, the other mirrors of the circle show the environment in this one. All probes of a circle have the
     largest ``bounces`` among them, so none is preferred. Time and memory grow with it;
     ``renderer.stats.bounce_changes`` says how much each bounce changed. Without a circle it has no effect.
+influence : array_like (2, 3), optional
+    Where the probe counts fully in a `ProbeBlend`: the low and the high corner, world units; in the space of
+    `proxy_matrix` if there is one. It does not move with the parent. None: everywhere. It matters to no other use of the probe.
+influence_shape : {"box", "sphere"}
+    "sphere": the ellipsoid that `influence` encloses, a sphere if its edges are equal.
+blend_distance : float
+    How far outside of `influence` the probe ceases to count, world units, above 0. Over this distance its weight falls from
+    1 to 0.
 
 Notes
 -----
@@ -78,8 +86,8 @@ interpolated, which is exact on planes.
 Raises
 ------
 ValueError
-    For a number out of its range, near >= far, another format, update or parallax, a proxy without a box, a box whose low
-    corner is not below its high one, a singular matrix, or a march without depths of 32 bits.
+    For a number out of its range, near >= far, another format, update, parallax or shape, a proxy without a box, a box or
+    influence whose low corner is not below its high one, a singular matrix, or a march without depths of 32 bits.
 TypeError
     For a parent or an excluded object that is not a node.
 

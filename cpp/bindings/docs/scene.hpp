@@ -180,7 +180,7 @@ matrix : array_like (4, 4), optional
     Node to parent, in place of position, rotation and scale: not singular, last row (0, 0, 0, 1).
 parent : Node, optional
     A node of this scene that the new node moves with.
-environment : CubeMap, Probe or PlanarMirror, optional
+environment : CubeMap, Probe, ProbeBlend or PlanarMirror, optional
     The surroundings that mirrors and glass show on this node. None: the scene's environment.
 visible : bool
     False: no picture shows the node or any node below it.

@@ -46,7 +46,9 @@ bool may_join_crowd(const NodeSnapshot& node) {
     const SurfaceOptions& surface = node.material.value.surface;
     return !node.deforms && node.blend == Blend::opaque && node.depth_write && surface.depth_test &&
            !surface.stencil && glm::all(surface.color_write) &&
-           !node.material.value.traits().user_code;
+           !node.material.value.traits().user_code &&
+           // Each node has its own probes of a blend.
+           !std::holds_alternative<ProbeBlendSnapshot>(node.environment);
 }
 
 Look look_of(const NodeSnapshot& node) {

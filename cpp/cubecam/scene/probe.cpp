@@ -14,7 +14,7 @@ bool ProbeValue::operator==(const ProbeValue& other) const {
            mipmaps == other.mipmaps && samples == other.samples && update == other.update &&
            every == other.every && faces_per_frame == other.faces_per_frame &&
            depth_format == other.depth_format && prefilter == other.prefilter &&
-           parallax == other.parallax && bounces == other.bounces &&
+           parallax == other.parallax && influence == other.influence && bounces == other.bounces &&
            same_nodes(exclude, other.exclude);
 }
 
@@ -34,6 +34,7 @@ void check(const ProbeValue& value) {
     expect(value.bounces >= 1 && value.bounces <= most_bounces, "bounces from 1 to 16",
            std::to_string(value.bounces));
     check(value.parallax);
+    check(value.influence);
     if (value.parallax.by_distance()) {
         expect(value.depth_format == DepthFormat::depth_component32f ||
                    value.depth_format == DepthFormat::depth32f_stencil8,

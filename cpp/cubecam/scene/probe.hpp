@@ -3,6 +3,7 @@
 #include "cubecam/core/versioned.hpp"
 #include "cubecam/image/depth_format.hpp"
 #include "cubecam/image/format.hpp"
+#include "cubecam/scene/influence.hpp"
 #include "cubecam/scene/parallax.hpp"
 #include "cubecam/scene/weak_nodes.hpp"
 
@@ -43,6 +44,7 @@ struct ProbeValue {
     /// Whether it is filtered by roughness; none: if a drawn surface needs that.
     std::optional<bool> prefilter;
     ParallaxValue parallax;
+    InfluenceValue influence;  ///< where it counts in a ProbeBlend
 
     bool operator==(const ProbeValue& other) const;
 };
@@ -51,8 +53,8 @@ struct ProbeValue {
 inline constexpr int most_bounces = 16;
 
 /// Throws std::invalid_argument for size < 1, near <= 0, near >= far, samples < 1, n < 1, faces
-/// outside 1..6, bounces outside 1..most_bounces, a wrong parallax, or a march through distances
-/// without depths of 32 bits.
+/// outside 1..6, bounces outside 1..most_bounces, a wrong parallax or influence, or a march through
+/// distances without depths of 32 bits.
 void check(const ProbeValue& value);
 
 /// A cubemap that follows the scene. A Probe is only a description: each renderer holds contents of

@@ -43,6 +43,19 @@ void Scene::set_environment(std::shared_ptr<CubeMap> environment) {
     outdated = graph_->changed();
 }
 
+std::shared_ptr<ProbeGrid> Scene::probe_grid() const {
+    const std::lock_guard lock(graph_->mutex);
+    return probe_grid_;
+}
+
+void Scene::set_probe_grid(std::shared_ptr<ProbeGrid> grid) {
+    std::shared_ptr<SceneSnapshot> outdated;  // released after the lock
+    const std::lock_guard lock(graph_->mutex);
+    if (grid == probe_grid_) return;
+    probe_grid_.swap(grid);
+    outdated = graph_->changed();
+}
+
 EnvironmentPlacing Scene::environment_placing() const {
     const std::lock_guard lock(graph_->mutex);
     return environment_placing_;

@@ -46,6 +46,9 @@ public:
     void set_environment_rotation(const glm::dquat& rotation);
     /// @throws std::invalid_argument for a factor that is negative or not finite.
     void set_environment_intensity(float intensity);
+    /// The grid whose light falls on surfaces from all around; null: the environment's does.
+    std::shared_ptr<ProbeGrid> probe_grid() const;
+    void set_probe_grid(std::shared_ptr<ProbeGrid> grid);
     Background background() const;
     /// @throws std::invalid_argument for a colour that is not finite or has an alpha outside 0..1.
     void set_background(Background background);
@@ -149,6 +152,7 @@ private:
     const std::shared_ptr<NodeGraph> graph_;
     std::shared_ptr<CubeMap> environment_;
     EnvironmentPlacing environment_placing_;
+    std::shared_ptr<ProbeGrid> probe_grid_;
     Background background_;
     /// In the order of ids. A removed node leaves a null until there are as many nulls as nodes, so
     /// that removing one costs only a binary search.

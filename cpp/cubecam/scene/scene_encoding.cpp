@@ -43,11 +43,16 @@ private:
     bool add(std::size_t number, const CubeSourceSnapshot& source) {
         if (const auto* cube = std::get_if<CubeSnapshot>(&source)) return add(cube->data->encoding);
         if (std::holds_alternative<PlanarMirrorIndex>(source)) return add_mirrored(number);
-        const auto* probe = std::get_if<std::size_t>(&source);
-        if (probe == nullptr || !probes_.emplace(number, *probe).second) return true;
         const SceneSnapshot& scene = first_.scene(number);
-        return add_scene(number,
-                         [&](const NodeSnapshot& node) { return is_seen(scene, node, *probe); });
+        if (std::holds_alternative<ProbeBlendSnapshot>(source) && !add(number, scene.environment)) {
+            return false;
+        }
+        const auto probes = probes_of(source);
+        return std::all_of(probes.begin(), probes.end(), [&](std::size_t probe) {
+            if (!probes_.emplace(number, probe).second) return true;
+            return add_scene(number,
+                             [&](const NodeSnapshot& node) { return is_seen(scene, node, probe); });
+        });
     }
 
     /// Planar mirrors may show all that captures show, and the scene's environment.

@@ -143,6 +143,14 @@ public:
         return std::move(state.value);
     }
 
+    std::shared_ptr<const ProbeGridSnapshot> snapshot_of(const std::shared_ptr<ProbeGrid>& grid) {
+        if (!grid) return nullptr;
+        ProbeGrid::State state = grid->state();
+        seen_.push_back({&grid->revision(), state.revision});
+        return std::make_shared<const ProbeGridSnapshot>(
+            ProbeGridSnapshot{grid, std::move(state.value), state.revision});
+    }
+
     PlanarMirrorValue value_of(const PlanarMirror& mirror) {
         const PlanarMirror::State state = mirror.state();
         seen_.push_back({&mirror.revision(), state.revision});
@@ -380,15 +388,28 @@ private:
             return shared_.snapshot_of(*cube);
         }
         if (const auto* probe = std::get_if<std::shared_ptr<Probe>>(&source); probe && *probe) {
-            const auto [found, added] = probes_.try_emplace(probe->get(), to_.probes.size());
-            if (added) to_.probes.push_back({*probe, shared_.value_of(**probe), {}, {}});
-            return found->second;
+            return place_of(*probe);
         }
         return {};
     }
 
-    /// The environment of a node, which may also be a planar mirror.
+    std::size_t place_of(const std::shared_ptr<Probe>& probe) {
+        const auto [found, added] = probes_.try_emplace(probe.get(), to_.probes.size());
+        if (added) to_.probes.push_back({probe, shared_.value_of(*probe), {}, {}});
+        return found->second;
+    }
+
+    /// The environment of a node, which may also be a planar mirror or several probes.
     CubeSourceSnapshot environment_of(const CubeSource& source) {
+        if (const auto* blend = std::get_if<std::shared_ptr<ProbeBlend>>(&source)) {
+            auto& probes = blends_[blend->get()];
+            if (!probes) {
+                std::vector<std::size_t> places;
+                for (const auto& probe : (*blend)->probes()) places.push_back(place_of(probe));
+                probes = std::make_shared<const std::vector<std::size_t>>(std::move(places));
+            }
+            return ProbeBlendSnapshot{*blend, probes};
+        }
         const auto* mirror = std::get_if<std::shared_ptr<PlanarMirror>>(&source);
         if (mirror == nullptr || !*mirror) return snapshot_of(source);
         const auto [found, added] = mirrors_.try_emplace(mirror->get(), to_.planar_mirrors.size());
@@ -440,6 +461,7 @@ private:
     std::vector<std::size_t> waiting_;
     std::unordered_map<const Probe*, std::size_t> probes_;
     std::unordered_map<const PlanarMirror*, std::size_t> mirrors_;
+    std::unordered_map<const ProbeBlend*, std::shared_ptr<const std::vector<std::size_t>>> blends_;
     Elsewhere elsewhere_;
 };
 
@@ -595,6 +617,7 @@ SceneSnapshot Scene::snapshot_alone(SharedReads& shared, std::uint64_t* changes)
         SnapshotBuilder builder(nodes_, graph_.get(), shared, snapshot);
         if (environment_) snapshot.environment = shared.snapshot_of(environment_);
         snapshot.environment_placing = environment_placing_;
+        snapshot.probe_grid = shared.snapshot_of(probe_grid_);
         if (const auto* color = std::get_if<glm::vec4>(&background_)) {
             snapshot.background = *color;
         } else if (const auto* cube = std::get_if<std::shared_ptr<CubeMap>>(&background_)) {

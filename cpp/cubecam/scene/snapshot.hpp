@@ -10,6 +10,8 @@
 #include "cubecam/scene/light.hpp"
 #include "cubecam/scene/planar_mirror.hpp"
 #include "cubecam/scene/probe.hpp"
+#include "cubecam/scene/probe_blend.hpp"
+#include "cubecam/scene/probe_grid.hpp"
 #include "cubecam/scene/render_texture.hpp"
 
 #include <glm/glm.hpp>
@@ -34,10 +36,17 @@ struct PlanarMirrorIndex {
     std::size_t value;
 };
 
+/// Several probes; `probes` are their indices in SceneSnapshot::probes.
+struct ProbeBlendSnapshot {
+    std::shared_ptr<ProbeBlend> object;
+    std::shared_ptr<const std::vector<std::size_t>> probes;
+};
+
 /// A cube lookup in a snapshot: none, a fixed cubemap, or the index of a probe in
-/// SceneSnapshot::probes. Only as the environment of a node it may also be a planar mirror.
+/// SceneSnapshot::probes. Only as the environment of a node it may also be a planar mirror, or
+/// several probes.
 using CubeSourceSnapshot =
-    std::variant<std::monostate, CubeSnapshot, std::size_t, PlanarMirrorIndex>;
+    std::variant<std::monostate, CubeSnapshot, std::size_t, PlanarMirrorIndex, ProbeBlendSnapshot>;
 
 /// A picture that a surface shows: none, a fixed one, or the index of a render texture in the
 /// `textures` of the first scene.
@@ -122,6 +131,12 @@ struct ProbeSnapshot {
     std::vector<std::int32_t> excluded;  ///< ids of nodes, each with its subtree
 };
 
+struct ProbeGridSnapshot {
+    std::shared_ptr<ProbeGrid> object;
+    ProbeGridValue value;
+    std::uint64_t revision;
+};
+
 struct PlanarMirrorSnapshot {
     std::shared_ptr<PlanarMirror> object;
     PlanarMirrorValue value;
@@ -142,6 +157,7 @@ struct SceneSnapshot {
     std::uint64_t revision = 0;  ///< snapshots with equal revisions are equal
     CubeSourceSnapshot environment;
     EnvironmentPlacing environment_placing;
+    std::shared_ptr<const ProbeGridSnapshot> probe_grid;  ///< null: none
     std::variant<glm::vec4, CubeSnapshot> background;
     bool shows_environment = false;   ///< the background is the environment, as it is placed
     std::vector<NodeSnapshot> nodes;  ///< the visible ones, in the order of their ids

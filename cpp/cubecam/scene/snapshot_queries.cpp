@@ -1,6 +1,8 @@
 #include "cubecam/scene/snapshot_queries.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 namespace cubecam {
 namespace {
@@ -18,10 +20,38 @@ bool is_excluded(const NodeSnapshot& node, const std::vector<std::int32_t>& excl
                        [&excluded](std::int32_t id) { return has(excluded, id); });
 }
 
+std::span<const std::size_t> probes_of(const CubeSourceSnapshot& source) {
+    if (const auto* one = std::get_if<std::size_t>(&source)) return {one, 1};
+    const auto* blend = std::get_if<ProbeBlendSnapshot>(&source);
+    return blend == nullptr ? std::span<const std::size_t>() : *blend->probes;
+}
+
+ReachingProbes reaching_probes(const SceneSnapshot& scene, const NodeSnapshot& node,
+                               const ProbeBlendSnapshot& blend) {
+    ReachingProbes found;
+    for (const std::size_t place : *blend.probes) {
+        const ProbeValue& probe = scene.probes[place].value;
+        const Influence influence = make_influence(probe.influence, probe.parallax.proxy_matrix);
+        if (!node.unbounded && !influence.reaches(node.world_bounds)) continue;
+        found.probes.push_back(place);
+        found.whole = found.whole || influence.everywhere ||
+                      (!node.unbounded && influence.contains(node.world_bounds));
+    }
+    if (found.probes.size() > most_blended_probes) {
+        throw std::invalid_argument(
+            "node " + std::to_string(node.id) + ": expected at most " +
+            std::to_string(most_blended_probes) +
+            " probes of its ProbeBlend whose influence reaches it, got " +
+            std::to_string(found.probes.size()) +
+            ": give them smaller influences or blend distances, or divide the mesh");
+    }
+    return found;
+}
+
 bool uses_probe(const NodeSnapshot& node, std::size_t probe) {
     const auto is_probe = [probe](const CubeSourceSnapshot& source) {
-        const auto* index = std::get_if<std::size_t>(&source);
-        return index != nullptr && *index == probe;
+        const auto probes = probes_of(source);
+        return std::find(probes.begin(), probes.end(), probe) != probes.end();
     };
     return is_probe(node.environment) ||
            std::any_of(node.textures.begin(), node.textures.end(),
@@ -46,12 +76,17 @@ bool vertices_see_pictures(const NodeSnapshot& node) {
     const auto is_drawn = [](const auto& source) {
         return std::holds_alternative<std::size_t>(source);
     };
-    return is_drawn(node.environment) ||
+    return !probes_of(node.environment).empty() ||
            std::any_of(node.textures.begin(), node.textures.end(),
                        [&](const TextureSourceSnapshot& t) { return std::visit(is_drawn, t); });
 }
 
 bool shows_behind(const NodeSnapshot& node) { return node.material.value.traits().shows_behind; }
+
+bool sees_probe_grid(const NodeSnapshot& node) {
+    const MaterialTraits& traits = node.material.value.traits();
+    return traits.uses_environment && traits.environment_parts.filtered;
+}
 
 bool receive_shadow(const NodeSnapshot& node) {
     return node.receive_shadow && node.material.value.traits().uses_lights;

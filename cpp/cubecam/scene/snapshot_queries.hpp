@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 /// Answers from a snapshot alone: which pictures see a node, and what its material uses.
@@ -13,7 +14,21 @@ namespace cubecam {
 /// Whether a node, or one above it, is among `excluded`.
 bool is_excluded(const NodeSnapshot& node, const std::vector<std::int32_t>& excluded);
 
-/// Whether a node looks up a probe of its scene.
+/// The probes that a node may ever look up as `source`: none, one, or all of a blend.
+std::span<const std::size_t> probes_of(const CubeSourceSnapshot& source);
+
+/// The probes of a node's blend that count in its bounds.
+struct ReachingProbes {
+    std::vector<std::size_t> probes;  ///< in the order of the blend
+    bool whole = false;  ///< one of them counts fully in all of the bounds: they need nothing else
+};
+
+/// @throws std::invalid_argument for more than most_blended_probes.
+ReachingProbes reaching_probes(const SceneSnapshot& scene, const NodeSnapshot& node,
+                               const ProbeBlendSnapshot& blend);
+
+/// Whether a node may look up a probe of its scene: also if it is in the node's blend but does not
+/// reach the node. So a probe does not begin or cease to show a node that moves.
 bool uses_probe(const NodeSnapshot& node, std::size_t probe);
 
 /// The environment that a node's material looks up: none, the node's own or the scene's.
@@ -27,6 +42,9 @@ bool vertices_see_pictures(const NodeSnapshot& node);
 
 /// Whether the scene behind shows through a node, which is not blended.
 bool shows_behind(const NodeSnapshot& node);
+
+/// Whether a node looks up the light from all around, which a probe grid may give.
+bool sees_probe_grid(const NodeSnapshot& node);
 
 /// Whether a node shows shadows: its material must use the lights.
 bool receive_shadow(const NodeSnapshot& node);

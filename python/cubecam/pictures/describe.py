@@ -23,6 +23,8 @@ from .._core import (
     PlanarMirror,
     PointLight,
     Probe,
+    ProbeBlend,
+    ProbeGrid,
     Renderer,
     RenderTexture,
     SpotLight,
@@ -36,6 +38,8 @@ __all__ = ["animation_text", "camera_text", "card_of", "color_of", "light_text",
 
 #: More channels than these are counted, not listed.
 MOST_CHANNELS = 20
+#: The same for the probes of a blend.
+MOST_PROBES = 20
 
 _UNITS = {
     "fov": "°",
@@ -110,6 +114,22 @@ def _(probe: Probe) -> Card:
 @card_of.register
 def _(mirror: PlanarMirror) -> Card:
     return Card("PlanarMirror", _facts(mirror, _properties(PlanarMirror)))
+
+
+@card_of.register
+def _(blend: ProbeBlend) -> Card:
+    rows = [Row(f"Probe {i}", shorten(probe)) for i, probe in enumerate(blend.probes[:MOST_PROBES])]
+    more = len(blend.probes) - len(rows)
+    rows += [Row(f"and {more} more", "")] if more else []
+    return Card("ProbeBlend", [], lists=[(count(len(blend.probes), "probe"), rows)])
+
+
+@card_of.register
+def _(grid: ProbeGrid) -> Card:
+    names = ["box", "counts", "size", "resolution", "visibility", "normal_bias", "view_bias"]
+    facts = _facts(grid, names)
+    facts.append(Fact("active", f"{int(grid.active.sum()):,} of {grid.active.size:,} nodes"))
+    return Card("ProbeGrid", facts)
 
 
 @card_of.register

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .._core import CubeMap, Material, Mesh, Node, PlanarMirror, Probe, Scene
+from .._core import CubeMap, Material, Mesh, Node, PlanarMirror, Probe, ProbeBlend, Scene
 from .cards import Card, Fact, Row, Shot, count, number, shorten, swatch_of, vector
 from .describe import animation_text, camera_text, card_of, color_of, light_text, mesh_text
 from .studio import BALL, draw_ball, draw_mesh, draw_scene, draw_solid
@@ -63,7 +63,7 @@ def _(scene: Scene) -> Card:
         ]
         more = _more(animations, MOST_LIGHTS)
         card.lists.append((count(len(animations), "animation"), rows + more))
-    probes = _distinct(node.environment for node in nodes if isinstance(node.environment, Probe))
+    probes = _distinct(probe for node in nodes for probe in _probes_of(node))
     if probes:
         rows = [Row("Probe", _probe_text(probe)) for probe in probes[:MOST_LIGHTS]]
         card.lists.append((count(len(probes), "probe"), rows + _more(probes, MOST_LIGHTS)))
@@ -119,7 +119,7 @@ def _tree(roots: Iterable[Node], total: int | None, names: dict[int, str]) -> li
         else:
             kind = f"{names.get(id(node.material), '')} {_name_of(node.material)}".strip()
             parts[:0] = [mesh_text(node.mesh), kind]
-        if isinstance(node.environment, (Probe, PlanarMirror)):
+        if isinstance(node.environment, (Probe, ProbeBlend, PlanarMirror)):
             parts.append(type(node.environment).__name__)
         parts += _flags(node)
         label = f"#{node.id}" + (f" {shorten(node.name, 40)}" if node.name else "")
@@ -191,6 +191,13 @@ def _flags(node: Node) -> list[str]:
     return [word for word, holds in flags.items() if holds]
 
 
+def _probes_of(node: Node) -> tuple[Probe, ...]:
+    shown = node.environment
+    if isinstance(shown, ProbeBlend):
+        return shown.probes
+    return (shown,) if isinstance(shown, Probe) else ()
+
+
 def _probe_text(probe: Probe) -> str:
     return f"{vector(probe.position)}, {probe.size} texels, {probe.format}, update {probe.update}"
 
@@ -220,4 +227,6 @@ def _surroundings(name: str, thing: Any) -> Fact:
         return Fact(name, f"{type(thing).__name__}, faces of {thing.size} × {thing.size} texels")
     if isinstance(thing, PlanarMirror):
         return Fact(name, f"PlanarMirror, {count(thing.bounces, 'bounce')}")
+    if isinstance(thing, ProbeBlend):
+        return Fact(name, f"ProbeBlend, {count(len(thing.probes), 'probe')}")
     return Fact(name, vector(thing), swatch_of(thing))

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from .._calls import checked_call
-from .._core import Material, Node, Probe, Scene
+from .._core import Material, Node, Probe, ProbeBlend, Scene
 from ..io.screen import CURVES
 from .control import Control, Section
 from .environment import EnvironmentTurn
@@ -91,7 +91,8 @@ def probes_of(nodes: Iterable[Node]) -> dict[Probe, list[Node]]:
     """
     found: dict[Probe, list[Node]] = {}
     for node in nodes:
-        cubes = [node.environment]
+        shown = node.environment
+        cubes: list[object] = list(shown.probes) if isinstance(shown, ProbeBlend) else [shown]
         if node.material is not None:
             cubes.append(getattr(node.material, "cubemap", None))
             cubes.extend(getattr(node.material, "textures", {}).values())

@@ -38,7 +38,14 @@ void add_source(std::size_t scene, const TextureSourceSnapshot& texture, Depende
 
 void add_dependencies(const SceneSnapshot& scene, std::size_t number, const NodeSnapshot& node,
                       Dependencies& to) {
-    add_cube(number, environment_of(scene, node), to);
+    const CubeSourceSnapshot& environment = environment_of(scene, node);
+    if (const auto* blend = std::get_if<ProbeBlendSnapshot>(&environment)) {
+        for (const std::size_t probe : reaching_probes(scene, node, *blend).probes) {
+            add_picture(probe_id(number, probe), to);
+        }
+    } else {
+        add_cube(number, environment, to);
+    }
     for (const TextureSourceSnapshot& texture : node.textures) add_source(number, texture, to);
 }
 

@@ -125,6 +125,9 @@ std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& l
             if (found.screen.depths != 0) {
                 picture.textures.push_back(found.screen.picture.revision);
             }
+            if (scene.probe_grid && sees_probe_grid(node)) {
+                picture.textures.push_back(scene.probe_grid->revision);
+            }
             key.texture_count =
                 static_cast<std::uint32_t>(picture.textures.size()) - key.first_texture;
             picture.nodes.push_back(key);

@@ -1,7 +1,5 @@
 #include "cubecam/render/graph/probe_circles.hpp"
 
-#include "cubecam/render/graph/dependencies.hpp"
-#include "cubecam/render/graph/picture_kind.hpp"
 #include "cubecam/render/graph/picture_order.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
 
@@ -18,13 +16,17 @@ void sort_once(Places& places) {
     places.erase(std::unique(places.begin(), places.end()), places.end());
 }
 
-/// The probes that a node's material looks up.
+/// The probes that a node's material may look up: all of a blend, so that circles do not change
+/// where nodes move.
 Places looked_up(const SceneSnapshot& scene, const NodeSnapshot& node) {
-    Dependencies pictures;
-    add_dependencies(scene, 0, node, pictures);
     Places probes;
-    for (const PictureId& id : pictures) {
-        if (id.kind == PictureKind::probe) probes.push_back(id.object);
+    const auto add = [&probes](const CubeSourceSnapshot& source) {
+        const auto found = probes_of(source);
+        probes.insert(probes.end(), found.begin(), found.end());
+    };
+    add(environment_of(scene, node));
+    for (const TextureSourceSnapshot& texture : node.textures) {
+        if (const auto* source = std::get_if<CubeSourceSnapshot>(&texture)) add(*source);
     }
     sort_once(probes);
     return probes;
@@ -33,8 +35,9 @@ Places looked_up(const SceneSnapshot& scene, const NodeSnapshot& node) {
 /// Whether no probe but this one leaves the node out, unless by `exclude`.
 bool uses_no_other(const NodeSnapshot& node, std::size_t probe) {
     const auto is_other = [probe](const CubeSourceSnapshot& source) {
-        const auto* place = std::get_if<std::size_t>(&source);
-        return place != nullptr && *place != probe;
+        const auto places = probes_of(source);
+        return std::any_of(places.begin(), places.end(),
+                           [probe](std::size_t place) { return place != probe; });
     };
     return !is_other(node.environment) &&
            std::none_of(node.textures.begin(), node.textures.end(),

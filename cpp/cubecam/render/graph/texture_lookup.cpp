@@ -48,6 +48,24 @@ Environment TextureLookup::find_cube(const CubeSnapshot& cube, const Environment
     return found;
 }
 
+Environment TextureLookup::find_blend(const NodeSnapshot& node, const ProbeBlendSnapshot& blend,
+                                      const EnvironmentParts& parts) {
+    const ReachingProbes reaching = reaching_probes(scene_, node, blend);
+    if (reaching.probes.empty()) return find_scene_environment(parts);
+    Environment first = find_environment(reaching.probes.front(), parts);
+    if (reaching.whole && reaching.probes.size() == 1) return first;
+    auto others = std::make_shared<EnvironmentBlend>();
+    for (const std::size_t place : reaching.probes) {
+        const ProbeValue& probe = scene_.probes[place].value;
+        others->influences.push_back(make_influence(probe.influence, probe.parallax.proxy_matrix));
+        if (others->influences.size() > 1) others->others.push_back(find_environment(place, parts));
+    }
+    others->has_rest = !reaching.whole;
+    if (others->has_rest) others->others.push_back(find_scene_environment(parts));
+    first.blend = std::move(others);
+    return first;
+}
+
 Environment TextureLookup::find_scene_environment(const EnvironmentParts& parts) {
     Environment found = find_environment(scene_.environment, parts);
     found.placing = scene_.environment_placing;
@@ -84,7 +102,10 @@ NodeTextures TextureLookup::find(const NodeSnapshot& node) {
     } else if (material.uses_environment && node.environment.index() == 0) {
         found.environment = find_scene_environment(parts);
     } else {
-        found.environment = find_environment(environment_of(scene_, node), parts);
+        const CubeSourceSnapshot& own = environment_of(scene_, node);
+        const auto* blend = std::get_if<ProbeBlendSnapshot>(&own);
+        found.environment =
+            blend != nullptr ? find_blend(node, *blend, parts) : find_environment(own, parts);
     }
     for (std::size_t i = 0; i < node.textures.size(); ++i) {
         found.textures.push_back(find(node.textures[i], material.textures[i].srgb));

@@ -38,6 +38,9 @@ public:
 private:
     Environment find_environment(const CubeSourceSnapshot& source, const EnvironmentParts& parts);
     Environment find_cube(const CubeSnapshot& cube, const EnvironmentParts& parts);
+    /// The probes of a blend that reach a node, and the scene's environment where they do not.
+    Environment find_blend(const NodeSnapshot& node, const ProbeBlendSnapshot& blend,
+                           const EnvironmentParts& parts);
     /// The scene's own environment, as the scene places it.
     Environment find_scene_environment(const EnvironmentParts& parts);
     /// The picture of a probe that the viewer shows; none: the scene's environment.

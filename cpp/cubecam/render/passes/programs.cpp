@@ -1,6 +1,7 @@
 #include "cubecam/render/passes/programs.hpp"
 
 #include "cubecam/core/error.hpp"
+#include "cubecam/render/passes/environment_text.hpp"
 #include "cubecam/render/passes/output_declarations.hpp"
 #include "cubecam/render/passes/shadow_block.hpp"
 #include "cubecam/render/passes/texture_units.hpp"
@@ -8,6 +9,7 @@
 #include "cubecam/render/resources/node_record.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cctype>
 #include <stdexcept>
@@ -86,23 +88,62 @@ void add_textures(gl::ShaderOptions& options, const SurfaceVariant& variant,
     if (position) options.defines.emplace_back("USES_POSITION_OBJECT", "1");
 }
 
-void add_environment(gl::ShaderOptions& options, const EnvironmentVariant& variant) {
-    const auto define = [&options](bool wanted, const char* name) {
-        if (wanted) options.defines.emplace_back(name, "1");
+/// `suffix` is that of the names of one of several environments.
+void add_environment(gl::ShaderOptions& options, const EnvironmentVariant& variant,
+                     const std::string& suffix = "") {
+    const auto define = [&](bool wanted, const char* name) {
+        if (wanted) options.defines.emplace_back(name + suffix, "1");
     };
     define(variant.block, "ENVIRONMENT_BLOCK");
     define(variant.turned, "ENVIRONMENT_TURNED");
-    define(variant.by_roughness, "USES_FILTERED_ENVIRONMENT");
     define(variant.filtered, "ENVIRONMENT_FILTERED");
     define(variant.uneven, "ENVIRONMENT_UNEVEN");
-    define(variant.box_mipmaps, "USES_ENVIRONMENT_MIPS");
     define(variant.parallax == Parallax::box, "ENVIRONMENT_BOX");
     define(variant.parallax == Parallax::sphere, "ENVIRONMENT_SPHERE");
     define(variant.parallax == Parallax::layers, "ENVIRONMENT_LAYERS");
     if (variant.fetches > 0) {
-        options.defines.emplace_back("ENVIRONMENT_FETCHES", std::to_string(variant.fetches));
+        options.defines.emplace_back("ENVIRONMENT_FETCHES" + suffix,
+                                     std::to_string(variant.fetches));
+    }
+}
+
+/// The defines for one environment, or for several that are blended.
+void add_environments(gl::ShaderOptions& options, const SurfaceVariant& variant) {
+    const auto define = [&options](bool wanted, const char* name) {
+        if (wanted) options.defines.emplace_back(name, "1");
+    };
+    const EnvironmentVariant& first = variant.environment;
+    define(first.by_roughness, "USES_FILTERED_ENVIRONMENT");
+    define(first.box_mipmaps, "USES_ENVIRONMENT_MIPS");
+    const bool marches =
+        first.fetches > 0 || std::any_of(variant.others.begin(), variant.others.end(),
+                                         [](const auto& other) { return other.fetches > 0; });
+    if (marches) {
         options.defines.emplace_back("DISTANCE_BLOCKS", std::to_string(distance_blocks));
     }
+    if (variant.others.empty()) return add_environment(options, first);
+    add_environment(options, first, "_0");
+    for (std::size_t i = 0; i < variant.others.size(); ++i) {
+        add_environment(options, variant.others[i], "_" + std::to_string(i + 1));
+    }
+    const std::size_t count = variant.others.size() + 1;
+    options.defines.emplace_back("ENVIRONMENT_SOURCES", std::to_string(count));
+    options.defines.emplace_back("ENVIRONMENT_PROBES",
+                                 std::to_string(count - (variant.has_rest ? 1 : 0)));
+}
+
+/// The text that takes the place of include/environment.glsl; empty for one environment.
+UserSource environment_source(const SurfaceVariant& variant) {
+    if (variant.others.empty()) return {};
+    std::vector<EnvironmentUnits> units{EnvironmentUnits()};
+    const std::vector<EnvironmentUnits> others = units_of(variant.others);
+    units.insert(units.end(), others.begin(), others.end());
+    return {blended_environment_text(units), {}};
+}
+
+/// Replaces that include, or nothing.
+ShaderPart environment_part(const SurfaceVariant& variant, const UserSource& source) {
+    return {variant.others.empty() ? "" : environment_include, &source};
 }
 
 void add_defines(gl::ShaderOptions& options,
@@ -132,6 +173,23 @@ std::size_t EnvironmentVariant::texture_count() const {
            (fetches > 0 ? 1U : 0U) + (parallax == Parallax::layers ? 1U : 0U);
 }
 
+std::vector<EnvironmentUnits> units_of(std::span<const EnvironmentVariant> others) {
+    std::vector<EnvironmentUnits> units;
+    GLuint next = texture_unit::last_blended;
+    for (const EnvironmentVariant& other : others) {
+        EnvironmentUnits& one = units.emplace_back();
+        const auto take = [&next](bool needed, GLuint& unit) {
+            if (needed) unit = next--;
+        };
+        take(true, one.cube);
+        take(other.filtered, one.filtered);
+        take(other.box_mipmaps, one.box_mipmaps);
+        take(other.fetches > 0, one.distances);
+        take(other.parallax == Parallax::layers, one.farthest);
+    }
+    return units;
+}
+
 Programs::Programs(const GladGLContext& gl, bool layered) : gl_(&gl), layered_(layered) {
     gl.GetIntegerv(GL_MAX_VARYING_VECTORS, &room_);
     GLint units = 16;
@@ -152,14 +210,27 @@ void Programs::check_textures(const SurfaceVariant& variant, const MaterialTrait
     const std::size_t maps = material.user_code
                                  ? material.textures.size()
                                  : static_cast<std::size_t>(std::popcount(variant.textures));
+    std::size_t blended = 0;
+    for (const EnvironmentVariant& other : variant.others) {
+        blended += 1 + other.texture_count() - (other.by_roughness ? 1U : 0U);
+    }
     const std::size_t environment =
-        (material.uses_environment ? 1U : 0U) + variant.environment.texture_count();
+        (material.uses_environment ? 1U : 0U) + variant.environment.texture_count() + blended;
     const auto shadows = static_cast<std::size_t>(variant.shadows);
     const std::size_t behind = variant.behind == BehindLookup::none ? 0U : 1U;
     const std::size_t planar = variant.planar == BehindLookup::none ? 0U : 1U;
     const std::size_t screen = variant.screen ? 2U : 0U;
     const std::size_t body = variant.body ? 2U : 0U;
-    const std::size_t all = maps + environment + shadows + behind + planar + screen + body;
+    const std::size_t grid = variant.grid ? (variant.grid_visibility ? 2U : 1U) : 0U;
+    const std::size_t all = maps + environment + shadows + behind + planar + screen + body + grid;
+    if (blended > texture_unit::most_blended) {
+        throw std::invalid_argument(
+            std::string(variant.kind->name) + ": expected at most " +
+            std::to_string(texture_unit::most_blended) +
+            " textures of the environments after the first one that a ProbeBlend blends, got " +
+            std::to_string(blended) +
+            ": fewer probes may reach a node, or with a simpler parallax");
+    }
     if (all <= most_textures_) return;
     throw std::invalid_argument(
         std::string(variant.kind->name) + ": expected at most " + std::to_string(most_textures_) +
@@ -169,7 +240,8 @@ void Programs::check_textures(const SurfaceVariant& variant, const MaterialTrait
         (behind == 0 ? "" : ", 1 of the scene behind") +
         (planar == 0 ? "" : ", 1 of the planar mirror") +
         (screen == 0 ? "" : ", 2 of screen_reflections") +
-        (body == 0 ? "" : ", 2 of the body's far side"));
+        (body == 0 ? "" : ", 2 of the body's far side") +
+        (grid == 0 ? "" : ", " + std::to_string(grid) + " of the probe grid"));
 }
 
 gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
@@ -184,7 +256,7 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
     add_textures(options, variant, material);
     define(material.user_code.has_value(), "USER_SOURCE");
     define(material.uses_environment, "USES_ENVIRONMENT");
-    add_environment(options, variant.environment);
+    add_environments(options, variant);
     define(material.uses_lights, "USES_LIGHTS");
     const std::size_t constants = material.constants;
     options.defines.emplace_back("MATERIAL_SIZE", std::to_string(constants));
@@ -203,6 +275,8 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
         options.defines.emplace_back("SCREEN_REFLECTIONS", "1");
         options.defines.emplace_back("SCREEN_DEPTH_LEVELS", std::to_string(screen_depth_levels));
     }
+    define(variant.grid, "PROBE_GRID");
+    define(variant.grid_visibility, "PROBE_GRID_VISIBILITY");
     define(variant.double_sided, "DOUBLE_SIDED");
     define(variant.blend != Blend::opaque, "TRANSLUCENT");
     define(variant.blend == Blend::additive, "BLEND_ADDITIVE");
@@ -235,10 +309,12 @@ const gl::Program& Programs::surface(const SurfaceVariant& variant,
     const UserSource include = include_of(*variant.kind);
     gl::ShaderOptions options = surface_options(variant, material);
     add_defines(options, output_defines(variant.outputs));
-    const ShaderPart part{material_include, &include};
+    const UserSource environment = environment_source(variant);
+    const std::array parts{ShaderPart{material_include, &include},
+                           environment_part(variant, environment)};
     return surfaces_
         .emplace(variant, gl::Program(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options,
-                                      substituted({&part, 1})))
+                                      substituted(parts)))
         .first->second;
 }
 
@@ -249,11 +325,13 @@ UserProgram& Programs::user_surface(const SurfaceVariant& variant, const Materia
     gl::ShaderOptions options = surface_options(variant, material);
     const UserSource fragment = place_outputs(*user.fragment, variant.outputs);
     add_defines(options, output_defines(variant.outputs, declared_outputs(*user.fragment)));
+    const UserSource environment = environment_source(variant);
     try {
         return users_.get(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options,
                           {{user_fragment, &fragment, UserStage::fragment, user.fragment},
                            {user_vertex, user.vertex, UserStage::vertex},
-                           {material_include, &include}},
+                           {material_include, &include},
+                           environment_part(variant, environment)},
                           conditions, *user.inputs);
     } catch (const ShaderError&) {
         // Only the driver knows which textures the source really looks up.

@@ -2,6 +2,7 @@
 
 #include "cubecam/gl/program.hpp"
 #include "cubecam/materials/material.hpp"
+#include "cubecam/render/passes/texture_units.hpp"
 #include "cubecam/render/passes/tonemap.hpp"
 #include "cubecam/render/passes/user_program.hpp"
 #include "cubecam/render/resources/environment.hpp"
@@ -14,8 +15,10 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace cubecam {
 
@@ -36,6 +39,19 @@ struct EnvironmentVariant {
 
     auto operator<=>(const EnvironmentVariant&) const = default;
 };
+
+/// The texture units of one environment.
+struct EnvironmentUnits {
+    GLuint cube = texture_unit::cube;
+    GLuint filtered = texture_unit::filtered;
+    GLuint box_mipmaps = texture_unit::box_mipmaps;
+    GLuint distances = texture_unit::distances;
+    GLuint farthest = texture_unit::farthest;
+};
+
+/// The units of the environments that a surface blends with its first one, those that are needed
+/// counted down from texture_unit::last_blended.
+std::vector<EnvironmentUnits> units_of(std::span<const EnvironmentVariant> others);
 
 /// How a surface looks up the scene behind it, or what its planar mirror shows: not at all, in a
 /// picture of the same view, or in a cube.
@@ -63,6 +79,10 @@ struct SurfaceVariant {
     int shadows = 0;                 ///< how many lights, the first ones, have a shadow on it
     std::uint32_t shadow_kinds = 0;  ///< ShadowView::Kind of each: two bits, from the lowest on
     EnvironmentVariant environment;
+    std::vector<EnvironmentVariant> others;  ///< of EnvironmentBlend::others
+    bool has_rest = false;                   ///< EnvironmentBlend::has_rest
+    bool grid = false;                       ///< the scene has a probe grid that the surface sees
+    bool grid_visibility = false;            ///< ProbeGridValue::visibility
     BehindLookup behind = BehindLookup::none;
     BehindLookup planar = BehindLookup::none;  ///< what its planar mirror shows
     bool clipped = false;                      ///< the view has a clip plane

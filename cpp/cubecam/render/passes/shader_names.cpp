@@ -1,6 +1,7 @@
 #include "cubecam/render/passes/shader_names.hpp"
 
 #include "cubecam/gl/embedded.hpp"
+#include "cubecam/render/passes/environment_text.hpp"
 #include "cubecam/render/resources/outputs.hpp"
 
 #include <algorithm>
@@ -120,11 +121,19 @@ const ShaderNames& shader_names(UserStage stage) {
         return names;
     }();
     static const ShaderNames surface = [] {
-        ShaderNames names =
-            read_names({"passes/surface.vert", "passes/surface.frag", "materials/shader.glsl"});
+        ShaderNames names = read_names({"passes/surface.vert", "passes/surface.frag",
+                                        "materials/shader.glsl", "include/environment_blend.glsl"});
         for (const OutputRow& row : output_table)
             names.variables.insert("o_" + std::string(row.name));
         add_all_variables(names);
+        // Those of several environments, one after the other.
+        for (const std::string& name : environment_names()) {
+            for (std::size_t i = 0; i <= most_blended_probes; ++i) {
+                const std::string numbered = name + "_" + std::to_string(i);
+                names.variables.insert(numbered);
+                names.blocks.insert(numbered);
+            }
+        }
         names.macros.erase("VOLUME");  // another material's, and a name that users may want
         return names;
     }();

@@ -20,11 +20,21 @@ bool shows_in(const SurfaceItems& items, const SurfaceItem& item, std::size_t re
     return std::find(regions.begin(), regions.end(), region) != regions.end();
 }
 
+bool same_blend(const EnvironmentBlend& a, const EnvironmentBlend& b);
+
 /// Whether surfaces of one material see the same environment in the same way.
 bool same_look(const Environment& a, const Environment& b) {
     return a.cube.texture == b.cube.texture && a.placing == b.placing && a.filtered == b.filtered &&
            a.box_mipmaps.texture == b.box_mipmaps.texture &&
-           a.planar.picture.texture == b.planar.picture.texture;
+           a.planar.picture.texture == b.planar.picture.texture &&
+           (a.blend == b.blend ||
+            (a.blend != nullptr && b.blend != nullptr && same_blend(*a.blend, *b.blend)));
+}
+
+bool same_blend(const EnvironmentBlend& a, const EnvironmentBlend& b) {
+    return a.has_rest == b.has_rest && a.influences == b.influences &&
+           std::equal(a.others.begin(), a.others.end(), b.others.begin(), b.others.end(),
+                      same_look);
 }
 
 bool is_drawn_alone(const NodeSnapshot& node) {
@@ -138,6 +148,18 @@ std::optional<GLintptr> SurfaceCallBuilder::append_environment(const SurfaceItem
     return append(&block, sizeof(block));
 }
 
+std::vector<GLintptr> SurfaceCallBuilder::append_blend(const SurfaceItem& item) {
+    const EnvironmentBlend* blend = item.textures->environment.blend.get();
+    if (blend == nullptr) return {};
+    const InfluencesBlock influences = make_influences_block(*blend, input_.origin());
+    std::vector<GLintptr> places{append(&influences, sizeof(influences))};
+    for (const Environment& other : blend->others) {
+        const EnvironmentBlock block = make_environment_block(other, input_.origin());
+        places.push_back(append(&block, sizeof(block)));
+    }
+    return places;
+}
+
 /// The caller adds the view records.
 SurfaceCall SurfaceCallBuilder::alone(const SurfaceItem& item) {
     const NodeBlock block = make_node_block(*item.node, input_.origin());
@@ -146,7 +168,8 @@ SurfaceCall SurfaceCallBuilder::alone(const SurfaceItem& item) {
             0,
             append(&block, sizeof(block)),
             append_constants(*item.node),
-            append_environment(item)};
+            append_environment(item),
+            append_blend(item)};
 }
 
 void SurfaceCallBuilder::add_together(const SurfaceItem& item, std::vector<SurfaceCall>& to) {
@@ -158,7 +181,7 @@ void SurfaceCallBuilder::add_together(const SurfaceItem& item, std::vector<Surfa
     }
     to.push_back({&item, place, 1, std::nullopt,
                   has_flat_constants(*item.node) ? std::nullopt : append_constants(*item.node),
-                  append_environment(item)});
+                  append_environment(item), append_blend(item)});
 }
 
 void SurfaceCallBuilder::add_sky(std::size_t first_region, std::size_t count, SurfaceCalls& to) {

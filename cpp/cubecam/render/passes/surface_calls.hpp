@@ -53,6 +53,8 @@ struct SurfaceCall {
     std::optional<GLintptr> node_block;   ///< none: the records are nodes; otherwise views
     std::optional<GLintptr> constants;    ///< the block of the material's constants
     std::optional<GLintptr> environment;  ///< the block of the environment, if the shader reads it
+    /// The block of the influences, then those of the other environments; empty: there is one.
+    std::vector<GLintptr> blend;
 };
 
 /// The draw calls for one region, or for all regions at once.
@@ -87,6 +89,7 @@ private:
     GLintptr append(const void* block, std::size_t size);
     std::optional<GLintptr> append_constants(const NodeSnapshot& node);
     std::optional<GLintptr> append_environment(const SurfaceItem& item);
+    std::vector<GLintptr> append_blend(const SurfaceItem& item);
     SurfaceCall alone(const SurfaceItem& item);
     void add_together(const SurfaceItem& item, std::vector<SurfaceCall>& to);
     void add_sky(std::size_t first_region, std::size_t count, SurfaceCalls& to);

@@ -7,6 +7,7 @@
 #include "cubecam/render/passes/full_screen_pass.hpp"
 #include "cubecam/render/passes/raster_state.hpp"
 #include "cubecam/render/passes/texture_units.hpp"
+#include "cubecam/render/resources/probe_grid_block.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
 
 #include <algorithm>
@@ -69,6 +70,17 @@ void SurfacePass::upload_clip_plane(const SurfaceInput& input) {
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, clip_binding, clip_.id());
 }
 
+void SurfacePass::upload_probe_grid(const SurfaceInput& input) {
+    grid_ = input.scene.probe_grid.get();
+    if (grid_ == nullptr) return;
+    grid_textures_ = &cache_->probe_grid(*grid_);
+    const ProbeGridBlock block = make_probe_grid_block(grid_->value, input.origin());
+    grid_block_ = gl::create_buffer(*gl_, sizeof(block), &block);
+    gl_->BindBufferBase(GL_UNIFORM_BUFFER, probe_grid_binding, grid_block_.id());
+    gl_->BindTextureUnit(texture_unit::grid_light, grid_textures_->light.id());
+    gl_->BindTextureUnit(texture_unit::grid_distances, grid_textures_->distances.id());
+}
+
 void SurfacePass::set_scissor(const Rect& rect) {
     gl_->Scissor(rect.x0, rect.y0, rect.width(), rect.height());
 }
@@ -81,6 +93,7 @@ void SurfacePass::draw(const SurfaceInput& input, Target& target, Stats& stats) 
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, lights_binding, lights_block_.id());
     upload_shadows(input.shadows, input.origin());
     upload_clip_plane(input);
+    upload_probe_grid(input);
     outputs_ = description.outputs.without_buffered();
     output_count_ = outputs_.by_slot().size();
     depth_ = depth_state(description.depth_order);
@@ -285,11 +298,20 @@ SurfaceVariant SurfacePass::variant_of(const SurfaceItem& item, bool instanced,
         }
     }
     variant.environment = EnvironmentVariant::of(item.textures->environment, traits);
+    if (const EnvironmentBlend* blend = item.textures->environment.blend.get()) {
+        for (const Environment& other : blend->others) {
+            variant.others.push_back(EnvironmentVariant::of(other, traits));
+            variant.others.back().block = true;
+        }
+        variant.has_rest = blend->has_rest;
+    }
     if (traits.shows_behind) variant.behind = behind_;
     variant.body = traits.shows_far_side;
     if (item.textures->environment.planar.picture.texture != 0) variant.planar = behind_;
     variant.clipped = clipped_;
     variant.screen = item.textures->screen.depths != 0;
+    variant.grid = grid_ != nullptr && sees_probe_grid(node);
+    variant.grid_visibility = variant.grid && grid_->value.visibility;
     if (receive_shadow(node)) {
         variant.shadows = static_cast<int>(lights_.shadow_count);
         variant.shadow_kinds = shadow_kinds_;
@@ -310,15 +332,18 @@ void SurfacePass::find_conditions(const SurfaceItem& item, const SurfaceVariant&
         conditions_.textures.push_back({unit, texture, revision});
     };
     const Environment& environment = item.textures->environment;
-    const bool reflects = environment.cube.texture != 0;
-    add(texture_unit::cube, reflects ? environment.cube.texture : black_.id(),
-        environment.cube.revision);
-    if (environment.filtered != nullptr) add(texture_unit::filtered, environment.filtered->id(), 0);
-    add(texture_unit::box_mipmaps, environment.box_mipmaps.texture,
-        environment.box_mipmaps.revision);
+    for (const UnitTexture& texture : textures_of(environment, {})) {
+        conditions_.textures.push_back(texture);
+    }
+    if (environment.blend != nullptr) {
+        const std::vector<EnvironmentUnits> units = units_of(variant.others);
+        for (std::size_t i = 0; i < units.size(); ++i) {
+            for (const UnitTexture& texture : textures_of(environment.blend->others[i], units[i])) {
+                conditions_.textures.push_back(texture);
+            }
+        }
+    }
     add(texture_unit::behind, item.textures->behind.texture, item.textures->behind.revision);
-    add(texture_unit::distances, environment.local.distances.texture, 0);
-    add(texture_unit::farthest, environment.local.farthest.texture, 0);
     if (environment.planar.picture.texture != 0) {
         add(texture_unit::planar, environment.planar.picture.texture,
             environment.planar.picture.revision);
@@ -330,6 +355,10 @@ void SurfacePass::find_conditions(const SurfaceItem& item, const SurfaceVariant&
         add(texture_unit::screen, item.textures->screen.picture.texture,
             item.textures->screen.picture.revision);
         add(texture_unit::screen_depths, item.textures->screen.depths, 0);
+    }
+    if (variant.grid) {
+        add(texture_unit::grid_light, grid_textures_->light.id(), grid_->revision);
+        add(texture_unit::grid_distances, grid_textures_->distances.id(), grid_->revision);
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(variant.shadows); ++i) {
         add(texture_unit::first_shadow + static_cast<GLuint>(i), shadow_textures_[i].texture,
@@ -362,7 +391,7 @@ void SurfacePass::bind_textures(const SurfaceItem& item, const SurfaceVariant& v
     }
     const MaterialTraits& traits = item.node->material.value.traits();
     if (traits.uses_environment || traits.environment_parts.filtered) {
-        bind_environment(item.textures->environment);
+        bind_environment(item.textures->environment, variant);
     }
     if (traits.shows_behind) {
         gl_->BindTextureUnit(texture_unit::behind, item.textures->behind.texture);
@@ -377,23 +406,40 @@ void SurfacePass::bind_textures(const SurfaceItem& item, const SurfaceVariant& v
     }
 }
 
-void SurfacePass::bind_environment(const Environment& environment) {
+std::vector<UnitTexture> SurfacePass::textures_of(const Environment& environment,
+                                                  const EnvironmentUnits& units) const {
     const auto or_black = [this](GLuint cube) { return cube != 0 ? cube : black_.id(); };
-    gl_->BindTextureUnit(texture_unit::cube, or_black(environment.cube.texture));
-    if (environment.parts.filtered || environment.filtered != nullptr) {
-        gl_->BindTextureUnit(texture_unit::brdf_table, brdf_table());
-    }
+    std::vector<UnitTexture> found;
+    found.push_back({units.cube, or_black(environment.cube.texture), environment.cube.revision});
     if (environment.filtered != nullptr) {
-        gl_->BindTextureUnit(texture_unit::filtered, environment.filtered->id());
+        found.push_back({units.filtered, environment.filtered->id(), 0});
     }
     if (environment.parts.mipmaps) {
-        gl_->BindTextureUnit(texture_unit::box_mipmaps, or_black(environment.box_mipmaps.texture));
+        found.push_back({units.box_mipmaps, or_black(environment.box_mipmaps.texture),
+                         environment.box_mipmaps.revision});
     }
     if (environment.local.by_distance()) {
-        gl_->BindTextureUnit(texture_unit::distances, environment.local.distances.texture);
+        found.push_back({units.distances, environment.local.distances.texture, 0});
     }
     if (environment.local.has_layers()) {
-        gl_->BindTextureUnit(texture_unit::farthest, environment.local.farthest.texture);
+        found.push_back({units.farthest, environment.local.farthest.texture, 0});
+    }
+    return found;
+}
+
+void SurfacePass::bind_environment(const Environment& environment, const SurfaceVariant& variant) {
+    const auto bind = [this](const Environment& one, const EnvironmentUnits& units) {
+        for (const UnitTexture& texture : textures_of(one, units)) {
+            gl_->BindTextureUnit(texture.unit, texture.texture);
+        }
+    };
+    bind(environment, {});
+    if (environment.blend != nullptr) {
+        const std::vector<EnvironmentUnits> units = units_of(variant.others);
+        for (std::size_t i = 0; i < units.size(); ++i) bind(environment.blend->others[i], units[i]);
+    }
+    if (environment.parts.filtered || environment.filtered != nullptr) {
+        gl_->BindTextureUnit(texture_unit::brdf_table, brdf_table());
     }
     if (environment.planar.picture.texture != 0) {
         gl_->BindTextureUnit(texture_unit::planar, environment.planar.picture.texture);
@@ -459,6 +505,15 @@ void SurfacePass::draw_calls(std::span<const SurfaceCall> calls, bool mirror, bo
         if (call.environment) {
             gl_->BindBufferRange(GL_UNIFORM_BUFFER, environment_binding, blocks_.id(),
                                  *call.environment, sizeof(EnvironmentBlock));
+        }
+        for (std::size_t i = 0; i < call.blend.size(); ++i) {
+            const bool first = i == 0;
+            gl_->BindBufferRange(GL_UNIFORM_BUFFER,
+                                 first ? influences_binding
+                                       : further_environment_binding + static_cast<GLuint>(i) - 1,
+                                 blocks_.id(), call.blend[i],
+                                 first ? GLsizeiptr{sizeof(InfluencesBlock)}
+                                       : GLsizeiptr{sizeof(EnvironmentBlock)});
         }
         bind_textures(*call.item, variant);
         const auto draw = [&] {

@@ -52,6 +52,7 @@ private:
     void set_scissor(const Rect& rect);
     void write_outputs(bool write);
     void upload_clip_plane(const SurfaceInput& input);
+    void upload_probe_grid(const SurfaceInput& input);
     bool use_layers(const SurfaceInput& input, const SurfaceItems& items, const Rect& whole) const;
     SurfaceVariant variant_of(const SurfaceItem& item, bool instanced, bool outputs) const;
     /// Must be called in the state of the draw call (UserPrograms::get).
@@ -59,7 +60,10 @@ private:
                                   bool outputs);
     void find_conditions(const SurfaceItem& item, const SurfaceVariant& variant, bool outputs);
     void bind_textures(const SurfaceItem& item, const SurfaceVariant& variant);
-    void bind_environment(const Environment& environment);
+    void bind_environment(const Environment& environment, const SurfaceVariant& variant);
+    /// The textures of one environment, each with its unit.
+    std::vector<UnitTexture> textures_of(const Environment& environment,
+                                         const EnvironmentUnits& units) const;
     GLuint brdf_table();
 
     const gl::Context* context_;
@@ -69,7 +73,7 @@ private:
     Layering layering_;
     gl::Texture black_;       ///< a cube of one texel, reflected if there is no environment
     gl::Texture brdf_table_;  ///< made when it is first needed
-    gl::Buffer view_records_, node_records_, blocks_, lights_block_, shadows_, clip_;
+    gl::Buffer view_records_, node_records_, blocks_, lights_block_, shadows_, clip_, grid_block_;
     ShaderLights lights_;
     DrawConditions pass_;                        ///< what all draw calls of a pass have in common
     DrawConditions conditions_;                  ///< of the present draw call
@@ -80,6 +84,8 @@ private:
     DepthState depth_ = depth_state(DepthOrder::nearest);  ///< of the target
     BehindLookup behind_ = BehindLookup::none;             ///< of surfaces in the target
     bool clipped_ = false;                                 ///< the views have a clip plane
+    const ProbeGridSnapshot* grid_ = nullptr;              ///< of the scene; null: none
+    const GpuProbeGrid* grid_textures_ = nullptr;
 };
 
 }  // namespace cubecam

@@ -29,6 +29,12 @@ inline constexpr GLuint body_normals = 47;
 /// The shadow map of the first light; the others follow.
 inline constexpr GLuint first_shadow = 48;
 
+inline constexpr GLuint grid_light = 64;      ///< of the scene's probe grid
+inline constexpr GLuint grid_distances = 65;  ///< the same
+/// The last of the units of further environments that a surface blends; the others come before it.
+inline constexpr GLuint last_blended = 79;
+inline constexpr std::size_t most_blended = 14;  ///< such units
+
 /// The largest number of textures of one material.
 inline constexpr std::size_t most_of_material = screen - first_of_material;
 

@@ -5,13 +5,16 @@
 #include "cubecam/render/resources/bound_texture.hpp"
 #include "cubecam/render/resources/filtered_texture.hpp"
 #include "cubecam/scene/environment_placing.hpp"
+#include "cubecam/scene/influence.hpp"
 #include "cubecam/scene/parallax.hpp"
+#include "cubecam/scene/probe_blend.hpp"
 
 #include <glm/glm.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -49,6 +52,8 @@ struct PlanarReflection {
     double distance = 1.0;   ///< PlanarMirrorValue::distance
 };
 
+struct EnvironmentBlend;
+
 /// The environment that a surface reflects.
 struct Environment {
     BoundTexture cube;  ///< texture 0: none, black
@@ -63,6 +68,8 @@ struct Environment {
     BoundTexture box_mipmaps;  ///< the cube with box-filtered levels; texture 0: not needed
     LocalLookup local;         ///< its method is none without `position`
     PlanarReflection planar;
+    /// Further environments that count besides this one, which is then a probe's; null: none.
+    std::shared_ptr<const EnvironmentBlend> blend;
 
     /// Makes the filtered levels the levels of the environment.
     void filter(const FilteredTexture& by_roughness) {
@@ -79,6 +86,15 @@ struct Environment {
 struct ScreenTextures {
     BoundTexture picture;  ///< texture 0: rays are not looked up there
     GLuint depths = 0;     ///< passes/screen_depth_pass.hpp
+};
+
+/// What a surface sees besides its first environment, each fragment by its own place
+/// (shaders/include/environment_blend.glsl).
+struct EnvironmentBlend {
+    std::vector<Influence> influences;  ///< of the first environment, then of those in `others`
+    std::vector<Environment> others;
+    /// The last of `others` is the scene's environment, which counts where no influence reaches.
+    bool has_rest = false;
 };
 
 /// All textures that a node looks up.
@@ -107,10 +123,24 @@ static_assert(sizeof(EnvironmentBlock) == 176 + 16 * most_filtered_levels);
 /// Whether a surface reads the block, or only the cube. `user_code`: the GLSL is a user's own.
 inline bool needs_block(const Environment& environment, bool user_code) {
     return user_code || environment.parts.filtered || !environment.placing.is_plain() ||
-           environment.local.method != Parallax::none || environment.planar.picture.texture != 0;
+           environment.local.method != Parallax::none || environment.planar.picture.texture != 0 ||
+           environment.blend != nullptr;
 }
 
 /// `origin` is the origin of the shaders' positions.
 EnvironmentBlock make_environment_block(const Environment& environment, const glm::dvec3& origin);
+
+/// The uniform block `Influences` of shaders/include/environment_blend.glsl, std140.
+struct InfluencesBlock {
+    struct One {
+        glm::vec4 to_box[3]{};    ///< rows of Influence::to_box, from relative to the origin
+        glm::vec4 from_box[3]{};  ///< xyz: rows of Influence::from_box; [0].w: 1 / blend distance
+                                  ///< [1].w: 1 for the ellipsoid
+    };
+    std::array<One, most_blended_probes> influences{};
+};
+static_assert(sizeof(InfluencesBlock) == 96 * most_blended_probes);
+
+InfluencesBlock make_influences_block(const EnvironmentBlend& blend, const glm::dvec3& origin);
 
 }  // namespace cubecam

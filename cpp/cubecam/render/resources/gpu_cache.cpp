@@ -5,6 +5,7 @@
 #include "cubecam/image/flip.hpp"
 #include "cubecam/image/pixels.hpp"
 #include "cubecam/render/resources/node_record.hpp"
+#include "cubecam/render/resources/probe_grid_block.hpp"
 #include "cubecam/render/resources/sampler.hpp"
 #include "cubecam/render/resources/view_record.hpp"
 
@@ -320,12 +321,33 @@ const GpuTexture& GpuCache::upload(WeakCache<CubeMap, GpuCube>& to, const CubeSn
     return entry.texture;
 }
 
+const GpuProbeGrid& GpuCache::probe_grid(const ProbeGridSnapshot& grid) {
+    GpuProbeGrid& entry = probe_grids_.get(grid.object, [] { return GpuProbeGrid(); });
+    if (entry.revision == grid.revision) return entry;
+    entry = {};  // frees the old memory first
+    const GridPicture light = light_picture(grid.value);
+    const GridPicture distances = distances_picture(grid.value);
+    check_side(*context_, "probe grid", std::max(distances.height, distances.width),
+               context_->limits().max_texture_size, "GL_MAX_TEXTURE_SIZE");
+    entry.light = gl::create_texture_2d(*gl_, GL_RGBA32F, light.width, light.height);
+    gl_->TextureSubImage2D(entry.light.id(), 0, 0, 0, light.width, light.height, GL_RGBA, GL_FLOAT,
+                           light.numbers.data());
+    entry.distances = gl::create_texture_2d(*gl_, GL_RG32F, distances.width, distances.height);
+    gl_->TextureSubImage2D(entry.distances.id(), 0, 0, 0, distances.width, distances.height, GL_RG,
+                           GL_FLOAT, distances.numbers.data());
+    gl_->TextureParameteri(entry.distances.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl::check_gl(*gl_, "uploading a probe grid");
+    entry.revision = grid.revision;
+    return entry;
+}
+
 void GpuCache::sweep() {
     meshes_.sweep();
     images_.sweep();
     decoded_images_.sweep();
     cubes_.sweep();
     box_mipmaps_.sweep();
+    probe_grids_.sweep();
 }
 
 }  // namespace cubecam

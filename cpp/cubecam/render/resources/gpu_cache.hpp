@@ -80,6 +80,13 @@ struct GpuTexture {
     bool mipmaps = false;
 };
 
+/// The textures of shaders/include/probe_grid.glsl.
+struct GpuProbeGrid {
+    gl::Texture light;
+    gl::Texture distances;
+    std::uint64_t revision = 0;
+};
+
 /// The GPU's copies of the meshes, images and cubemaps that were drawn.
 class GpuCache {
 public:
@@ -98,6 +105,9 @@ public:
     const GpuTexture& cube(const CubeSnapshot& cube);
     /// The same with box-filtered levels, whether the cubemap has mipmaps or not.
     const GpuTexture& box_mipmaps(const CubeSnapshot& cube);
+
+    /// Makes the textures again where the grid changed since the last time.
+    const GpuProbeGrid& probe_grid(const ProbeGridSnapshot& grid);
 
     /// A vertex array with only the attributes of a view, for a skybox.
     const gl::VertexArray& views_only() const { return views_only_; }
@@ -121,6 +131,7 @@ private:
     WeakCache<const Image, GpuTexture> decoded_images_;
     WeakCache<CubeMap, GpuCube> cubes_;
     WeakCache<CubeMap, GpuCube> box_mipmaps_;  ///< of cubemaps without mipmaps
+    WeakCache<ProbeGrid, GpuProbeGrid> probe_grids_;
 };
 
 }  // namespace cubecam

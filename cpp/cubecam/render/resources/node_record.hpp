@@ -14,6 +14,10 @@ inline constexpr unsigned node_binding = 0;
 inline constexpr unsigned material_binding = 3;
 inline constexpr unsigned view_binding = 4;
 inline constexpr unsigned environment_binding = 5;
+/// Of the environments that are blended with the first one, and of their influences.
+inline constexpr unsigned further_environment_binding = 8;
+inline constexpr unsigned influences_binding = 12;
+inline constexpr unsigned probe_grid_binding = 13;
 
 /// The largest number of material constants that are flat inputs: more of them would cost each
 /// triangle more than they save (docs/adr/0004).

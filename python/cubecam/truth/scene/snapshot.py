@@ -19,6 +19,7 @@ from ..._core import (
     PlanarMirror,
     PointLight,
     Probe,
+    ProbeBlend,
     RenderTexture,
     Scene,
     SpotLight,
@@ -230,7 +231,7 @@ class _Surroundings:
         own = node.environment
         if own is None:
             return 0
-        if isinstance(own, (Probe, PlanarMirror)):
+        if isinstance(own, (Probe, ProbeBlend, PlanarMirror)):
             return 1
         if id(own) not in self._known:  # the cubemap is kept, so that its id stays its own
             self._known[id(own)] = (own, len(self.all))

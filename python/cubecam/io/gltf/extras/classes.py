@@ -63,11 +63,17 @@ PLANS = {
             (
                 "position", "size", "near", "far", "format", "mipmaps", "samples", "update",
                 "faces_per_frame", "depth_format", "prefilter", "parallax", "box", "proxy_matrix",
-                "fetches", "bounces",
+                "fetches", "bounces", "influence", "influence_shape", "blend_distance",
             ),
             ("parent", "exclude"),
         ),
         Plan(_core.PlanarMirror, ("bounces", "distance")),
+        Plan(_core.ProbeBlend, ("probes",)),
+        Plan(
+            _core.ProbeGrid,
+            ("box", "counts", "size", "resolution", "visibility", "normal_bias", "view_bias"),
+            ("coefficients", "distances", "active"),
+        ),
         Plan(
             _core.RenderTexture,
             (
@@ -94,7 +100,13 @@ PLANS = {
 #: Properties of an entry's object that glTF has no word for.
 NODE = ("in_captures", "render_order", "cast_shadow", "receive_shadow", "label", "environment")
 MESH = ("normals", "uvs", "colors", "uvs1", "tangents")
-SCENE = ("background", "environment", "environment_intensity", "environment_rotation")
+SCENE = (
+    "background",
+    "environment",
+    "environment_intensity",
+    "environment_rotation",
+    "probe_grid",
+)
 
 #: The properties of a ShaderMaterial that its constructor does not need.
 _SHADER = ("vertex", "uniforms", "textures", "displacement")

@@ -23,6 +23,8 @@ from ...._core import (
     Node,
     PlanarMirror,
     Probe,
+    ProbeBlend,
+    ProbeGrid,
     RenderTexture,
     Scene,
 )
@@ -32,7 +34,7 @@ from .document import Array, Document, Json
 #: Larger arrays become bytes of a buffer view.
 _FEW = 64
 #: Objects that several others may share stand in one list.
-_SHARED = (CubeMap, Probe, PlanarMirror, RenderTexture, ImageEffect, Camera)
+_SHARED = (CubeMap, Probe, ProbeBlend, ProbeGrid, PlanarMirror, RenderTexture, ImageEffect, Camera)
 
 
 def number(value: float) -> float:
