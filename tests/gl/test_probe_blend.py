@@ -223,6 +223,7 @@ def test_probes_in_a_circle_show_each_others_blends(renderer):
     assert len(changes) == 1
     shown = renderer.render(scene, camera, SIZE, format="rgba32f").color
     for ball in balls:
+        assert isinstance(ball.environment, cc.ProbeBlend)
         for probe in ball.environment.probes:
             probe.bounces = 1
     other = renderer.render(scene, camera, SIZE, format="rgba32f").color
