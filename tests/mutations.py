@@ -768,6 +768,13 @@ MUTATIONS = [
         PROBE_BLEND,
     ),
     Mutation(
+        "several probes: circles forget what planar mirrors show",
+        "graph/probe_circles.cpp",
+        "if (scene.planar_mirrors.empty()) return is_seen(scene, node, probe);",
+        "if (scene.planar_mirrors.size() < 100) return is_seen(scene, node, probe);",
+        PROBE_BLEND,
+    ),
+    Mutation(
         "several probes, reference: a linear fall",
         "shading/influence.py",
         "1 - t * t * (3 - 2 * t)",

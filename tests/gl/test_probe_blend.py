@@ -151,7 +151,7 @@ def test_nothing_pops_where_a_ball_rolls_from_room_to_room(renderer):
     assert np.abs(middle - COLORS[0]).max() < 1e-4
 
 
-def test_captures_frames_textures_and_mirrors_show_the_same(any_path):
+def test_captures_show_the_same(any_path):
     scene, node, _ = world(MATERIALS["own"]())
     cube = any_path.capture(
         scene, (0.3, 0.4, 2), size=24, format="rgba32f", outputs=("position", "id")
@@ -160,6 +160,41 @@ def test_captures_frames_textures_and_mirrors_show_the_same(any_path):
     assert on.sum() > 100
     want = expected(cube.outputs["position"][on].astype(float))
     assert np.abs(cube.faces[on][:, :3] - want).max() < 1e-4
+
+
+def test_a_planar_mirror_shows_the_same(renderer):
+    scene, _, _ = world(MATERIALS["own"]())
+    pane = scene.add(cc.Mesh.plane(12, 12), cc.MirrorMaterial(), position=(0, -2, 0))
+    pane.environment = cc.PlanarMirror()
+    camera = cc.PerspectiveCamera(position=(0.3, 1.5, 7), target=(0, -2, 1.5), fov=50)
+    # In the probes' own pictures the mirror shows the node, which sees all of the probes: a circle.
+    assert np.isfinite(renderer.render(scene, camera, SIZE, format="rgba32f").color).all()
+    pane.in_captures = False
+    frame = renderer.render(scene, camera, SIZE, format="rgba32f", outputs=("position", "id"))
+    on = frame.outputs["id"] == pane.id
+    start = frame.outputs["position"][on].astype(float)
+    way = start - camera.position
+    way[:, 1] *= -1
+    # Where the mirrored rays enter the box of the node.
+    half = np.array([3, 1.2, 1])
+    enters = np.minimum((-half - start) / way, (half - start) / way).max(axis=-1)
+    leaves = np.maximum((-half - start) / way, (half - start) / way).min(axis=-1)
+    met = (enters > 0) & (enters < leaves - 1e-3)
+    want = expected(start + enters[:, None] * way)
+    got = frame.color[on][:, :3]
+    assert met.sum() > 40
+    # The normals of the own material do not matter: each probe shows one colour.
+    assert np.quantile(np.abs(got - want)[met].max(axis=-1), 0.95) < 1e-3
+
+
+def test_a_render_texture_shows_the_same(renderer):
+    scene, _, _ = world(MATERIALS["own"]())
+    texture = cc.RenderTexture(scene, CAMERA, size=SIZE, format="rgba32f")
+    screen = cc.Scene()
+    screen.add(cc.Mesh.plane(1, 1), cc.BasicMaterial(map=texture))
+    renderer.render(screen, CAMERA, SIZE)
+    direct = renderer.render(scene, CAMERA, SIZE, format="rgba32f").color
+    assert_identical(renderer.read_texture(texture), direct)
 
 
 def test_a_change_redraws_what_it_must(fresh_renderer):
@@ -223,6 +258,7 @@ def test_probes_in_a_circle_show_each_others_blends(renderer):
     assert len(changes) == 1
     shown = renderer.render(scene, camera, SIZE, format="rgba32f").color
     for ball in balls:
+        assert isinstance(ball.environment, cc.ProbeBlend)
         for probe in ball.environment.probes:
             probe.bounces = 1
     other = renderer.render(scene, camera, SIZE, format="rgba32f").color

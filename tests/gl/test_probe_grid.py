@@ -1,5 +1,7 @@
 """ProbeGrid: the light of a grid on surfaces, against numpy, and what a bake captures, against what is known."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -55,7 +57,8 @@ def expected(frame, camera, grid):
         at,
         normals,
         incident,
-        *grid.box,
+        grid.box[0],
+        grid.box[1],
         grid.coefficients,
         grid.distances,
         grid.active,
@@ -98,7 +101,15 @@ def test_the_grid_lights_captures_probes_and_blends_alike(any_path):
     incident = at - (0, 0, 2.4)
     incident /= np.linalg.norm(incident, axis=-1, keepdims=True)
     want = reference.irradiance(
-        at, normals, incident, *BOX, grid.coefficients, grid.distances, grid.active, around=SKY
+        at,
+        normals,
+        incident,
+        BOX[0],
+        BOX[1],
+        grid.coefficients,
+        grid.distances,
+        grid.active,
+        around=SKY,
     )
     assert np.quantile(np.abs(cube.faces[on][:, :3] - want).max(axis=-1), 0.98) < 3e-3
     # Whatever environments a node blends: their irradiance does not count within the grid.
@@ -145,7 +156,12 @@ def test_bounces_add_what_walls_reflect(renderer):
 def two_rooms():
     """A bright and a dark room with a thin wall between them, at x = 0."""
     scene = cc.Scene()
-    white = {"metallic": 0, "specular_weight": 0, "roughness": 1, "double_sided": True}
+    white: dict[str, Any] = {
+        "metallic": 0,
+        "specular_weight": 0,
+        "roughness": 1,
+        "double_sided": True,
+    }
     matt = cc.StandardMaterial(color=(0.7, 0.7, 0.7), **white)
     scene.add(cc.Mesh.box(1), matt, scale=(6, 2, 3))
     scene.add(cc.Mesh.box(1), matt, scale=(0.05, 2, 3))

@@ -47,6 +47,13 @@ bool uses_no_other(const NodeSnapshot& node, std::size_t probe) {
                         });
 }
 
+/// Whether a probe's picture may show a node. A planar mirror in it also shows the nodes that use
+/// the probe; such a node has a blend, or it would only lead back to its own probe.
+bool may_show(const SceneSnapshot& scene, const NodeSnapshot& node, std::size_t probe) {
+    if (scene.planar_mirrors.empty()) return is_seen(scene, node, probe);
+    return node.in_captures && !is_excluded(node, scene.probes[probe].excluded);
+}
+
 /// For each probe: the probes that its picture may show.
 ///
 /// Most probes exclude nothing, and most nodes use one probe. Such probes see such nodes by way of
@@ -72,7 +79,7 @@ std::vector<Places> edges_of(const SceneSnapshot& scene) {
         const bool simple = shown.size() == 1 && uses_no_other(node, shown.front());
         if (simple) edges[count].push_back(shown.front());
         for (const std::size_t probe : simple ? excluding : all) {
-            if (!is_seen(scene, node, probe)) continue;
+            if (!may_show(scene, node, probe)) continue;
             edges[probe].insert(edges[probe].end(), shown.begin(), shown.end());
         }
     }
