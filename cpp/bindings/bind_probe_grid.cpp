@@ -23,7 +23,7 @@ namespace cubecam::bindings {
 
 namespace {
 
-using Counts = OneOf<py::typing::Tuple<int, int, int>>;
+using Counts = Shown<"tuple[int, int, int]">;
 
 glm::ivec3 to_counts(const Counts& counts) {
     constexpr const char* expected = "three whole numbers (nx, ny, nz)";

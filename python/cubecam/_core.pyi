@@ -1033,11 +1033,7 @@ class ProbeGrid:
     def __init__(
         self: ProbeGrid,
         box: np.typing.ArrayLike,
-        counts: tuple[
-            typing.SupportsInt | typing.SupportsIndex,
-            typing.SupportsInt | typing.SupportsIndex,
-            typing.SupportsInt | typing.SupportsIndex,
-        ],
+        counts: tuple[int, int, int],
         *,
         size: typing.SupportsIndex = 32,
         resolution: typing.SupportsIndex = 16,

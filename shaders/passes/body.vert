@@ -9,6 +9,8 @@ layout(location = 2) uniform vec3 u_body_middle;
 layout(location = 3) uniform vec3 u_body_half;
 
 out vec3 v_normal;
+invariant v_normal;
+invariant gl_Position;
 
 void main() {
     vec3 p = (a_position - u_body_middle) / u_body_half;

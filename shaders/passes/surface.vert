@@ -42,6 +42,9 @@ invariant v_tangent;
 #ifdef VOLUME
 invariant v_scale;
 #endif
+#ifdef SCREEN_REFLECTIONS
+invariant v_clip_depth;
+#endif
 #ifdef BODY
 invariant v_body;
 invariant v_to_body;

@@ -27,7 +27,7 @@ from tests.fuzz.world import World, draw, expected, use
 #: The objects whose pickles are broken: names of attributes of World.
 THINGS = [
     "cube", "image", "scene", "mesh", "target", "texture", "basic", "phong", "mirror", "glass", "standard", "shader",
-    "effect", "shadow", "point", "spot", "sun", "ambient", "probe", "skin", "bent", "node", "camera", "flat", "matrices",
+    "effect", "shadow", "point", "spot", "sun", "ambient", "probe", "grid", "skin", "bent", "node", "camera", "flat", "matrices",
     "stereo", "screen", "channel", "animation", "blend", "stencil", "frame",
 ]  # fmt: skip
 #: What else Python's pickle may raise for broken bytes.

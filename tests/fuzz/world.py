@@ -56,6 +56,7 @@ class World:
         self.sun = self.scene.add(cc.DirectionalLight((-1, -2, 0)))
         self.ambient = self.scene.add(cc.AmbientLight(intensity=0.1))
         self.probe = cc.Probe(size=4)
+        self.grid = cc.ProbeGrid(((-1, -1, -1), (1, 1, 1)), (2, 2, 2), size=2, resolution=4)
         self.group = self.scene.add(name="group")
         joints = [self.scene.add(parent=self.group), self.scene.add(position=(0, 0.2, 0))]
         self.skin = cc.Skin(joints)
@@ -129,6 +130,8 @@ def use(thing: Any, world: World) -> None:
             world.standard.map = thing
         elif isinstance(thing, (cc.Light, cc.Animation, cc.Camera)):
             world.scene.add(thing)
+        elif isinstance(thing, cc.ProbeGrid):
+            world.scene.probe_grid = thing
         elif isinstance(thing, cc.Shadow):
             world.sun.shadow = thing
         elif isinstance(thing, cc.Scene):

@@ -55,6 +55,9 @@ VALUES: dict[str, Any] = {
     "matrix": np.eye(4),
     "proxy_matrix": np.eye(4),
     "box": [[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]],
+    "influence": [[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]],
+    "distances": np.ones((2, 2, 2, 16, 16, 2)),
+    "active": np.ones((2, 2, 2), bool),
     "view": np.eye(4),
     "projection": np.eye(4),
     "world_to_camera_cv": np.eye(4),
@@ -105,6 +108,7 @@ OF_FUNCTIONS: dict[tuple[str, str], Any] = {
     ("CubeMap.set_face", "pixels"): CUBE[0],
     ("MorphTarget", "tangents"): [[1.0, 0.0, 0.0]] * 3,
     ("Texture", "scale"): [1.0, 2.0],
+    ("ProbeGrid.coefficients", "coefficients"): np.ones((2, 2, 2, 9, 3)),
     **{(f"CubeMap.from_{name}", "image"): CUBE[0] for name in ROUND},
 }
 
@@ -112,6 +116,7 @@ OF_FUNCTIONS: dict[tuple[str, str], Any] = {
 OBJECTS: dict[str, Any] = {
     "Node": lambda: cc.Scene().add(morphing_mesh()),
     "Probe": cc.Probe,
+    "ProbeGrid": lambda: cc.ProbeGrid(VALUES["box"], (2, 2, 2)),
     "Scene": cc.Scene,
     "CubeMap": lambda: cc.CubeMap(CUBE),
     "Mesh": lambda: cc.Mesh(**TRIANGLE, joints=VALUES["joints"], joint_weights=[[1, 1, 0, 0]] * 3),
@@ -135,6 +140,7 @@ NEEDED: dict[str, Any] = {
         "joint_weights": VALUES["joint_weights"],
     },
     "Camera": lambda: {"view": np.eye(4), "projection": np.eye(4)},
+    "ProbeGrid": lambda: {"box": VALUES["box"], "counts": (2, 2, 2)},
     "Scene.add": lambda: {"mesh": morphing_mesh()},
     "Skin": lambda: {"joints": [cc.Scene().add()]},
     "AnimationChannel": lambda: {

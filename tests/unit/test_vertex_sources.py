@@ -42,5 +42,8 @@ def test_what_a_vertex_shader_computes_is_invariant(path):
 
 def test_the_values_of_a_surface_that_are_computed():
     surface = text_of(SHADERS / "passes" / "surface.vert")
-    assert computed(surface) == {"v_position", "v_normal", "v_height", "v_tangent", "v_scale"}
+    assert computed(surface) == {
+        *("v_position", "v_normal", "v_height", "v_tangent", "v_scale"),
+        *("v_body", "v_to_body", "v_clip_depth"),
+    }
     assert "precise vec4 position_world = " in surface
