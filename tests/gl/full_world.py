@@ -270,15 +270,20 @@ def pictures(renderer, world):
     def add_frame(name, eye, **options):
         frame = refused(lambda: renderer.render(scene, eye, SIZE, **options))
         for output in (
-            () if isinstance(frame, str) else ("color", "distance", "id", "label", "stencil")
+            ()
+            if isinstance(frame, str)
+            else ("color", "distance", "id", "label", "stencil", "heat")
         ):
-            if getattr(frame, output) is not None:
+            if getattr(frame, output, None) is not None:
                 found[f"{name} {output}"] = getattr(frame, output)
         if isinstance(frame, str):
             found[name] = frame
 
     stencils = {"depth_format": "depth32f_stencil8"}
-    outputs = ("distance", "id", "label", "stencil")
+    outputs: tuple[str, ...] = ("distance", "id", "label", "stencil")
+    # A frame of its own would compile each program once more.
+    if any(isinstance(node.material, cc.ShaderMaterial) for node in scene.nodes):
+        outputs = (*outputs, "heat")  # that the sources of this world declare
     add_frame("frame", camera, format="rgba32f", outputs=outputs, **stencils)
     add_frame("effects", flat, effects=world.effects, samples=4)
     add_frame("matrices", matrices, tonemap="aces", **stencils)
@@ -294,9 +299,6 @@ def pictures(renderer, world):
         found["farthest"] = behind
     else:
         found["farthest"], found["farthest id"] = behind.faces, behind.id
-    heat = refused(lambda: renderer.render(scene, camera, SIZE, outputs=("heat",)))
-    if not isinstance(heat, str):  # a node's material declares this output
-        found["heat"] = heat.outputs["heat"]
     for index, light in enumerate(scene.lights):
         if getattr(light, "shadow", None) is not None:
             shadow = refused(lambda lamp=light: renderer.shadow_map(scene, lamp))
