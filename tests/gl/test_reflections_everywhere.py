@@ -1,5 +1,8 @@
 """Each way to reflect what is near: in frames and captures, on both paths, translucent, shadowed, in light above 1."""
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -18,17 +21,19 @@ def probe(**options):
 
 
 def blend(node):
-    options = {"size": 32, "format": "rgba32f", "blend_distance": 0.8, "exclude": [node]}
+    options: dict[str, Any] = {"size": 32, "format": "rgba32f", "exclude": [node]}
     return cc.ProbeBlend(
         [
-            cc.Probe((x, 0, 0), influence=((x - 1, -1, -1), (x + 1, 1, 1)), **options)
+            cc.Probe(
+                (x, 0, 0), influence=((x - 1, -1, -1), (x + 1, 1, 1)), blend_distance=0.8, **options
+            )
             for x in (-1, 1)
         ]
     )
 
 
 #: What a node sees, and what it is made of.
-WAYS = {
+WAYS: dict[str, tuple[Callable[..., Any], Callable[..., cc.Material], cc.Mesh]] = {
     "plain": (probe(), cc.MirrorMaterial, BALL),
     "box": (probe(parallax="box", box=(LOW, HIGH)), cc.MirrorMaterial, BALL),
     "sphere": (probe(parallax="sphere", box=(LOW, HIGH)), cc.MirrorMaterial, BALL),
