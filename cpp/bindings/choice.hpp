@@ -50,25 +50,34 @@ private:
 
 namespace pybind11::detail {
 
+/// Writes "typing.Literal[", the entries with commas between them, each by `entry(place)`, and "]".
+template <class Write, class Entry>
+constexpr void write_literal(Write write, std::size_t count, Entry entry) {
+    const auto plain = [&](std::string_view text) {
+        for (const char letter : text) write(letter);
+    };
+    plain("typing.Literal[");
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i > 0) plain(", ");
+        entry(i);
+    }
+    plain("]");
+}
+
 /// The names of a table as pybind11 writes them in a signature, where '!' stands before the letters
 /// that have a meaning of their own.
 template <const auto& table>
 struct LiteralNames {
     template <class Write>
     static constexpr void each_letter(Write write) {
-        const auto plain = [&](std::string_view text) {
-            for (const char letter : text) write(letter);
-        };
-        plain("typing.Literal[");
-        for (std::size_t i = 0; i < table.size(); ++i) {
-            plain(i == 0 ? "\"" : ", \"");
-            for (const char letter : cubecam::name_of(table[i])) {
+        write_literal(write, table.size(), [&](std::size_t place) {
+            write('"');
+            for (const char letter : cubecam::name_of(table[place])) {
                 if (std::string_view("!@%{}-").find(letter) != std::string_view::npos) write('!');
                 write(letter);
             }
-            plain("\"");
-        }
-        plain("]");
+            write('"');
+        });
     }
 };
 
@@ -77,17 +86,13 @@ template <const auto& table>
 struct LiteralNumbers {
     template <class Write>
     static constexpr void each_letter(Write write) {
-        const auto plain = [&](std::string_view text) {
-            for (const char letter : text) write(letter);
-        };
-        plain("typing.Literal[");
-        for (std::size_t i = 0; i < table.size(); ++i) {
-            if (i > 0) plain(", ");
+        write_literal(write, table.size(), [&](std::size_t place) {
             int power = 1;
-            while (table[i] / power >= 10) power *= 10;
-            for (; power > 0; power /= 10) write(static_cast<char>('0' + table[i] / power % 10));
-        }
-        plain("]");
+            while (table[place] / power >= 10) power *= 10;
+            for (; power > 0; power /= 10) {
+                write(static_cast<char>('0' + table[place] / power % 10));
+            }
+        });
     }
 };
 

@@ -1,29 +1,14 @@
 #include "cubecam/scene/influence.hpp"
 
 #include "cubecam/core/checks.hpp"
+#include "cubecam/scene/box.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace cubecam {
-namespace {
-
-bool same_bounds(const Bounds& a, const Bounds& b) { return a.low == b.low && a.high == b.high; }
-
-}  // namespace
-
-bool InfluenceValue::operator==(const InfluenceValue& other) const {
-    return shape == other.shape && blend_distance == other.blend_distance &&
-           box.has_value() == other.box.has_value() && (!box || same_bounds(*box, *other.box));
-}
 
 void check(const InfluenceValue& value) {
-    if (value.box) {
-        expect_finite(value.box->low, "influence");
-        expect_finite(value.box->high, "influence");
-        const bool ordered = glm::all(glm::lessThan(value.box->low, value.box->high));
-        expect(ordered, "influence=(low, high) with low < high on each axis",
-               "low " + describe(value.box->low) + ", high " + describe(value.box->high));
-    }
+    if (value.box) expect_box(*value.box, "influence");
     expect_positive(value.blend_distance, "blend_distance");
 }
 

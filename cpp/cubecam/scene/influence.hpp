@@ -29,7 +29,7 @@ struct InfluenceValue {
     InfluenceShape shape = InfluenceShape::box;
     double blend_distance = 1.0;  ///< over which it falls to 0 outside the shape, world units
 
-    bool operator==(const InfluenceValue& other) const;
+    bool operator==(const InfluenceValue&) const = default;
 };
 
 /// @throws std::invalid_argument for a box whose low corner is not below its high one, or a blend

@@ -2,6 +2,7 @@
 
 #include "cubecam/core/checks.hpp"
 #include "cubecam/math/transform.hpp"
+#include "cubecam/scene/box.hpp"
 
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -17,15 +18,6 @@ glm::dmat4 ParallaxValue::to_proxy() const {
     return glm::inverse(proxy_matrix.value_or(glm::dmat4(1.0)) * of_box);
 }
 
-bool ParallaxValue::operator==(const ParallaxValue& other) const {
-    const auto same_box = [](const Bounds& a, const Bounds& b) {
-        return a.low == b.low && a.high == b.high;
-    };
-    return method == other.method && fetches == other.fetches &&
-           proxy_matrix == other.proxy_matrix && box.has_value() == other.box.has_value() &&
-           (!box || same_box(*box, *other.box));
-}
-
 void check(const ParallaxValue& value) {
     if (value.by_proxy()) {
         expect(value.box.has_value(),
@@ -33,13 +25,7 @@ void check(const ParallaxValue& value) {
                    std::string(to_string(value.method)) + "'",
                "None");
     }
-    if (value.box) {
-        expect_finite(value.box->low, "box");
-        expect_finite(value.box->high, "box");
-        const bool ordered = glm::all(glm::lessThan(value.box->low, value.box->high));
-        expect(ordered, "box=(low, high) with low < high on each axis",
-               "low " + describe(value.box->low) + ", high " + describe(value.box->high));
-    }
+    if (value.box) expect_box(*value.box, "box");
     if (value.proxy_matrix) {
         const glm::dmat4& matrix = *value.proxy_matrix;
         expect(is_finite(matrix), "a proxy_matrix of finite numbers", "one with others");

@@ -47,7 +47,7 @@ struct ParallaxValue {
     /// From the world to the space in which the proxy's box is from -1 to 1 on each axis.
     glm::dmat4 to_proxy() const;
 
-    bool operator==(const ParallaxValue& other) const;
+    bool operator==(const ParallaxValue&) const = default;
 };
 
 /// @throws std::invalid_argument for a proxy without a box, a box whose low corner is not below its

@@ -1,6 +1,7 @@
 #include "cubecam/scene/probe_grid.hpp"
 
 #include "cubecam/core/checks.hpp"
+#include "cubecam/scene/box.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,11 +37,7 @@ std::string counts_text(const glm::ivec3& counts) {
 }
 
 void check_shape(const ProbeGridValue& value) {
-    expect_finite(value.box.low, "box");
-    expect_finite(value.box.high, "box");
-    expect(glm::all(glm::lessThan(value.box.low, value.box.high)),
-           "box=(low, high) with low < high on each axis",
-           "low " + describe(value.box.low) + ", high " + describe(value.box.high));
+    expect_box(value.box, "box");
     expect(glm::all(glm::greaterThanEqual(value.counts, glm::ivec3(2))),
            "counts=(nx, ny, nz) of at least 2", counts_text(value.counts));
     expect(value.resolution >= 4 && value.resolution <= 32, "resolution from 4 to 32",
@@ -70,8 +67,8 @@ double ProbeGridValue::least_step() const {
 }
 
 bool ProbeGridValue::operator==(const ProbeGridValue& other) const {
-    return box.low == other.box.low && box.high == other.box.high && counts == other.counts &&
-           resolution == other.resolution && size == other.size && visibility == other.visibility &&
+    return box == other.box && counts == other.counts && resolution == other.resolution &&
+           size == other.size && visibility == other.visibility &&
            normal_bias == other.normal_bias && view_bias == other.view_bias &&
            same_numbers(coefficients, other.coefficients) &&
            same_numbers(distances, other.distances) && same_numbers(active, other.active);

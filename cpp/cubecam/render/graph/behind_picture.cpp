@@ -74,19 +74,8 @@ std::vector<PictureId> BehindPicture::dependencies() {
 }
 
 void BehindPicture::update() {
-    const TargetDescription description = describe();
     Target::Behind& kept = viewer_.kept_behind();
-    if (kept.target == nullptr || kept.target->description() != description) {
-        kept = {};  // frees the old memory first
-        kept.target = std::make_unique<Target>(context_.gpu.context, description);
-    }
-    try {
-        if (draw_changed(*kept.target) == 0) return;
-    } catch (...) {
-        kept = {};
-        throw;
-    }
-    context_.gpu.context.gl().GenerateTextureMipmap(kept.target->color().id());
+    if (!draw_kept(kept.target, [&kept] { kept = {}; })) return;
     kept.revision = context_.gpu.contents = next_revision();
 }
 

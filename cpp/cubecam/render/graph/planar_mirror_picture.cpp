@@ -63,21 +63,8 @@ std::vector<PictureId> PlanarMirrorPicture::dependencies() {
 }
 
 void PlanarMirrorPicture::update() {
-    const TargetDescription description = describe();
     Target::Mirrors::Kept& mine = kept();
-    if (mine.target == nullptr || mine.target->description() != description) {
-        mine.target = nullptr;  // frees the old memory first
-        mine.target = std::make_unique<Target>(context_.gpu.context, description);
-    }
-    try {
-        if (draw_changed(*mine.target) == 0) return;
-    } catch (...) {
-        mine.target = nullptr;
-        throw;
-    }
-    if (description.mipmaps) {
-        context_.gpu.context.gl().GenerateTextureMipmap(mine.target->color().id());
-    }
+    if (!draw_kept(mine.target, [&mine] { mine.target = nullptr; })) return;
     mine.revision = context_.gpu.contents = next_revision();
 }
 

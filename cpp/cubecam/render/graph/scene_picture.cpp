@@ -144,4 +144,22 @@ std::size_t ScenePicture::draw_changed(Target& target, const PostProcess& post_p
     return picture.draw_changed(target, budget);
 }
 
+bool ScenePicture::draw_kept(std::unique_ptr<Target>& target, const std::function<void()>& forget) {
+    const TargetDescription description = describe();
+    if (target == nullptr || target->description() != description) {
+        forget();  // frees the old memory first
+        target = std::make_unique<Target>(context_.gpu.context, description);
+    }
+    try {
+        if (draw_changed(*target) == 0) return false;
+        if (description.mipmaps) {
+            context_.gpu.context.gl().GenerateTextureMipmap(target->color().id());
+        }
+    } catch (...) {
+        forget();
+        throw;
+    }
+    return true;
+}
+
 }  // namespace cubecam

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -64,6 +65,11 @@ protected:
     /// Calls DrawnPicture::draw_changed.
     std::size_t draw_changed(Target& target, const PostProcess& post_process = {},
                              std::optional<Budget> budget = std::nullopt);
+
+    /// The same for a target that another picture keeps, made anew if its description changed; then
+    /// makes its mipmaps. `forget` frees what is kept: before a new target, and if drawing fails.
+    /// Returns whether anything was drawn.
+    bool draw_kept(std::unique_ptr<Target>& target, const std::function<void()>& forget);
 
     /// The picture whose planar mirrors, and whose scene behind, this one shows: itself, or one of
     /// the same views.

@@ -34,20 +34,13 @@ TargetDescription ScreenPicture::describe() const {
 std::vector<PictureId> ScreenPicture::dependencies() { return plan(viewer_.views(), describe()); }
 
 void ScreenPicture::update() {
-    const TargetDescription description = describe();
     Target::Screen& kept = viewer_.kept_screen();
-    if (kept.target == nullptr || kept.target->description() != description) {
-        kept = {};  // frees the old memory first
-        kept.target = std::make_unique<Target>(context_.gpu.context, description);
-    }
+    const auto forget = [&kept] { kept = {}; };
+    if (!draw_kept(kept.target, forget)) return;
     try {
-        if (draw_changed(*kept.target) == 0) return;
-        if (description.mipmaps) {
-            context_.gpu.context.gl().GenerateTextureMipmap(kept.target->color().id());
-        }
         context_.gpu.screen_depths.update(kept, context_.stats);
     } catch (...) {
-        kept = {};
+        forget();
         throw;
     }
     kept.revision = context_.gpu.contents = next_revision();

@@ -4,6 +4,7 @@
 #include "cubecam/gl/pace.hpp"
 #include "cubecam/math/cube_face.hpp"
 #include "cubecam/render/passes/full_screen_pass.hpp"
+#include "cubecam/render/resources/sampler.hpp"
 #include "cubecam/render/resources/view_record.hpp"
 
 #include <algorithm>
@@ -51,12 +52,8 @@ BodyPass::Body BodyPass::make() const {
     Body body;
     body.nearness = gl::create_texture_2d(gl, GL_RG32F, body_width, body_height);
     body.normals = gl::create_texture_2d_array(gl, GL_RGBA16F, body_width, body_height, 2);
-    for (const GLuint texture : {body.nearness.id(), body.normals.id()}) {
-        gl.TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        gl.TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-        gl.TextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        gl.TextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    }
+    set_sampler(gl, body.nearness.id(), clamped_linear);
+    set_sampler(gl, body.normals.id(), clamped_linear);
     body.lookup.nearness = body.nearness.id();
     body.lookup.normals = body.normals.id();
     return body;

@@ -4,18 +4,13 @@
 #include "cubecam/gl/pace.hpp"
 #include "cubecam/render/passes/full_screen_pass.hpp"
 #include "cubecam/render/resources/environment.hpp"
+#include "cubecam/render/resources/sampler.hpp"
 
 #include <glm/glm.hpp>
 
 namespace cubecam {
 
 namespace {
-
-/// Sets no filter between texels.
-void filter_nearest(const GladGLContext& gl, GLuint texture) {
-    gl.TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl.TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-}
 
 constexpr Rect blocks_at(int y) { return {0, y, 3 * distance_blocks, y + 2 * distance_blocks}; }
 
@@ -25,20 +20,17 @@ void DistancePass::make(DistanceMap& map, int size, bool layers) {
     const GladGLContext& gl = context_->gl();
     map = {};  // frees the old memory first
     const auto add = [&](gl::Texture& texture, gl::Framebuffer& framebuffer, GLenum format,
-                         int width, int height) {
+                         int width, int height, const Sampler& sampler) {
         texture = gl::create_texture_2d(gl, format, width, height);
-        gl.TextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        gl.TextureParameteri(texture.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        set_sampler(gl, texture.id(), sampler);
         framebuffer = gl::create_framebuffer(gl);
         gl.NamedFramebufferTexture(framebuffer.id(), GL_COLOR_ATTACHMENT0, texture.id(), 0);
         gl::check_framebuffer(gl, framebuffer, "making a map of distances");
     };
     add(map.texture_, map.framebuffer_, layers ? GL_RG32F : GL_R32F, distances_width(size),
-        distances_height(size));
-    gl.TextureParameteri(map.texture_.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl.TextureParameteri(map.texture_.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    add(map.blocks_, map.blocks_framebuffer_, GL_R32F, 3 * distance_blocks, 2 * distance_blocks);
-    filter_nearest(gl, map.blocks_.id());
+        distances_height(size), clamped_linear);
+    add(map.blocks_, map.blocks_framebuffer_, GL_R32F, 3 * distance_blocks, 2 * distance_blocks,
+        clamped_nearest);
     map.size_ = size;
     map.layers_ = layers;
 }
@@ -68,7 +60,7 @@ void DistancePass::update(DistanceMap& map, const Target& nearest, const Target*
     for (const Target* target : {&nearest, farthest}) {
         if (target == nullptr) continue;
         // The mean of a surface's depth and the background's is that of no surface.
-        filter_nearest(gl, target->depth().id());
+        set_sampler(gl, target->depth().id(), clamped_nearest);
         gl.BindTextureUnit(unit++, target->depth().id());
     }
     set_full_screen_state(gl);

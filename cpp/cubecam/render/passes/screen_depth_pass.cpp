@@ -4,6 +4,7 @@
 #include "cubecam/gl/pace.hpp"
 #include "cubecam/gl/texture_memory.hpp"
 #include "cubecam/render/passes/full_screen_pass.hpp"
+#include "cubecam/render/resources/sampler.hpp"
 
 #include <string>
 
@@ -19,10 +20,9 @@ void ScreenDepthPass::make(Target::Screen& screen) {
                                                 screen_depths_side(drawn.height), drawn.layers(),
                                                 screen_depth_levels);
     const GLuint id = screen.depths.id();
-    gl.TextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
-    gl.TextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    gl.TextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl.TextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    Sampler sampler = clamped_linear;
+    sampler.min = MinFilter::linear_mipmap_nearest;
+    set_sampler(gl, id, sampler);
     screen.levels.clear();
     for (int level = 0; level < screen_depth_levels; ++level) {
         screen.levels.emplace_back(gl, std::vector<Layers::Attachment>{{attachment(0), id, level}},
@@ -35,11 +35,9 @@ void ScreenDepthPass::update(Target::Screen& screen, Stats& stats) {
     const GladGLContext& gl = context_->gl();
     const Target& target = *screen.target;
     // No texel of a texture that is copied is filtered.
-    gl.TextureParameteri(target.depth().id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl.TextureParameteri(target.depth().id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    set_sampler(gl, target.depth().id(), clamped_nearest);
     const GLuint ids = target.output(1).id();
-    gl.TextureParameteri(ids, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl.TextureParameteri(ids, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    set_sampler(gl, ids, clamped_nearest);
     set_full_screen_state(gl);
     const GLuint depths = screen.depths.id();
     for (int level = 0; level < screen_depth_levels; ++level) {

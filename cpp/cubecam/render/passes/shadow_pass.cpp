@@ -7,6 +7,7 @@
 #include "cubecam/image/flip.hpp"
 #include "cubecam/render/passes/texture_units.hpp"
 #include "cubecam/render/resources/node_record.hpp"
+#include "cubecam/render/resources/sampler.hpp"
 #include "cubecam/render/resources/view_record.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
 
@@ -94,10 +95,7 @@ ShadowMap ShadowPass::make_map(int size, int count) const {
                                                                               size, count);
                                        });
     const GLuint id = map.depth.id();
-    gl_->TextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl_->TextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl_->TextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl_->TextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    set_sampler(*gl_, id, clamped_nearest);
     map.layers.emplace(*gl_, std::vector<Layers::Attachment>{{GL_DEPTH_ATTACHMENT, id}}, count);
     map.size = size;
     return map;

@@ -8,6 +8,7 @@
 #include "cubecam/render/passes/raster_state.hpp"
 #include "cubecam/render/passes/texture_units.hpp"
 #include "cubecam/render/resources/probe_grid_block.hpp"
+#include "cubecam/render/resources/sampler.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
 
 #include <algorithm>
@@ -319,6 +320,27 @@ SurfaceVariant SurfacePass::variant_of(const SurfaceItem& item, bool instanced,
     return variant;
 }
 
+template <class Visit>
+void SurfacePass::each_texture(const Environment& environment, const SurfaceVariant& variant,
+                               const Visit& visit) const {
+    const auto or_black = [this](GLuint cube) { return cube != 0 ? cube : black_.id(); };
+    const auto visit_one = [&](const Environment& one, const EnvironmentUnits& units) {
+        visit(units.cube, or_black(one.cube.texture), one.cube.revision);
+        if (one.filtered != nullptr) visit(units.filtered, one.filtered->id(), 0);
+        if (one.parts.mipmaps) {
+            visit(units.box_mipmaps, or_black(one.box_mipmaps.texture), one.box_mipmaps.revision);
+        }
+        if (one.local.by_distance()) visit(units.distances, one.local.distances.texture, 0);
+        if (one.local.has_layers()) visit(units.farthest, one.local.farthest.texture, 0);
+    };
+    visit_one(environment, {});
+    if (environment.blend == nullptr) return;
+    const std::vector<EnvironmentUnits> units = units_of(variant.others);
+    for (std::size_t i = 0; i < units.size(); ++i) {
+        visit_one(environment.blend->others[i], units[i]);
+    }
+}
+
 void SurfacePass::find_conditions(const SurfaceItem& item, const SurfaceVariant& variant,
                                   bool outputs) {
     conditions_.clear();
@@ -332,17 +354,7 @@ void SurfacePass::find_conditions(const SurfaceItem& item, const SurfaceVariant&
         conditions_.textures.push_back({unit, texture, revision});
     };
     const Environment& environment = item.textures->environment;
-    for (const UnitTexture& texture : textures_of(environment, {})) {
-        conditions_.textures.push_back(texture);
-    }
-    if (environment.blend != nullptr) {
-        const std::vector<EnvironmentUnits> units = units_of(variant.others);
-        for (std::size_t i = 0; i < units.size(); ++i) {
-            for (const UnitTexture& texture : textures_of(environment.blend->others[i], units[i])) {
-                conditions_.textures.push_back(texture);
-            }
-        }
-    }
+    each_texture(environment, variant, add);
     add(texture_unit::behind, item.textures->behind.texture, item.textures->behind.revision);
     if (environment.planar.picture.texture != 0) {
         add(texture_unit::planar, environment.planar.picture.texture,
@@ -406,38 +418,10 @@ void SurfacePass::bind_textures(const SurfaceItem& item, const SurfaceVariant& v
     }
 }
 
-std::vector<UnitTexture> SurfacePass::textures_of(const Environment& environment,
-                                                  const EnvironmentUnits& units) const {
-    const auto or_black = [this](GLuint cube) { return cube != 0 ? cube : black_.id(); };
-    std::vector<UnitTexture> found;
-    found.push_back({units.cube, or_black(environment.cube.texture), environment.cube.revision});
-    if (environment.filtered != nullptr) {
-        found.push_back({units.filtered, environment.filtered->id(), 0});
-    }
-    if (environment.parts.mipmaps) {
-        found.push_back({units.box_mipmaps, or_black(environment.box_mipmaps.texture),
-                         environment.box_mipmaps.revision});
-    }
-    if (environment.local.by_distance()) {
-        found.push_back({units.distances, environment.local.distances.texture, 0});
-    }
-    if (environment.local.has_layers()) {
-        found.push_back({units.farthest, environment.local.farthest.texture, 0});
-    }
-    return found;
-}
-
 void SurfacePass::bind_environment(const Environment& environment, const SurfaceVariant& variant) {
-    const auto bind = [this](const Environment& one, const EnvironmentUnits& units) {
-        for (const UnitTexture& texture : textures_of(one, units)) {
-            gl_->BindTextureUnit(texture.unit, texture.texture);
-        }
-    };
-    bind(environment, {});
-    if (environment.blend != nullptr) {
-        const std::vector<EnvironmentUnits> units = units_of(variant.others);
-        for (std::size_t i = 0; i < units.size(); ++i) bind(environment.blend->others[i], units[i]);
-    }
+    each_texture(environment, variant, [this](GLuint unit, GLuint texture, std::uint64_t) {
+        gl_->BindTextureUnit(unit, texture);
+    });
     if (environment.parts.filtered || environment.filtered != nullptr) {
         gl_->BindTextureUnit(texture_unit::brdf_table, brdf_table());
     }
@@ -452,9 +436,7 @@ GLuint SurfacePass::brdf_table() {
         const GLuint id = brdf_table_.id();
         gl_->TextureSubImage2D(id, 0, 0, 0, brdf_table_size, brdf_table_size, GL_RGBA, GL_FLOAT,
                                cubecam::brdf_table().data());
-        gl_->TextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        gl_->TextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        gl_->TextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        set_sampler(*gl_, id, clamped_linear);
     }
     return brdf_table_.id();
 }

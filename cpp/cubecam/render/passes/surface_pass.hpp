@@ -61,9 +61,11 @@ private:
     void find_conditions(const SurfaceItem& item, const SurfaceVariant& variant, bool outputs);
     void bind_textures(const SurfaceItem& item, const SurfaceVariant& variant);
     void bind_environment(const Environment& environment, const SurfaceVariant& variant);
-    /// The textures of one environment, each with its unit.
-    std::vector<UnitTexture> textures_of(const Environment& environment,
-                                         const EnvironmentUnits& units) const;
+    /// Calls visit(unit, texture, revision) for the textures of an environment, and of those that
+    /// it is blended with.
+    template <class Visit>
+    void each_texture(const Environment& environment, const SurfaceVariant& variant,
+                      const Visit& visit) const;
     GLuint brdf_table();
 
     const gl::Context* context_;

@@ -2,6 +2,7 @@
 
 #include "cubecam/core/revision.hpp"
 #include "cubecam/lighting/radiance_faces.hpp"
+#include "cubecam/render/resources/sampler.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -97,10 +98,7 @@ void FilteredTexture::upload(const gl::Context& context, std::span<const Filtere
     if (size_ != shelves.size) {
         size_ = shelves.size;
         texture_ = gl::create_texture_2d(gl, GL_RGBA32F, size_.x, size_.y);
-        gl.TextureParameteri(texture_.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        gl.TextureParameteri(texture_.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-        gl.TextureParameteri(texture_.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        gl.TextureParameteri(texture_.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        set_sampler(gl, texture_.id(), clamped_linear);
     }
     gl.TextureSubImage2D(texture_.id(), 0, 0, 0, size_.x, size_.y, GL_RGBA, GL_FLOAT,
                          texels.data());

@@ -3,6 +3,7 @@
 #include "cubecam/core/error.hpp"
 #include "cubecam/gl/large_texture.hpp"
 #include "cubecam/gl/texture_memory.hpp"
+#include "cubecam/render/resources/sampler.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -314,10 +315,7 @@ gl::Texture Target::make_texture(const gl::Context& context, GLenum format, int 
             return gl::create_texture_2d_array(gl, format, width, height, shape.count, levels);
         });
     // Probes and effects look up these textures.
-    gl_->TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl_->TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    gl_->TextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl_->TextureParameteri(texture.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    set_sampler(*gl_, texture.id(), clamped_linear);
     return texture;
 }
 
