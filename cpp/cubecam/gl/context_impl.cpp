@@ -2,11 +2,13 @@
 
 #include "cubecam/core/error.hpp"
 #include "cubecam/gl/device_probe.hpp"
+#include "cubecam/gl/objects.hpp"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <mutex>
 #include <string_view>
 #include <utility>
 
@@ -56,6 +58,18 @@ void GLAD_API_PTR collect_message(GLenum, GLenum type, GLuint id, GLenum severit
     }
 }
 
+/// Clears a depth texture, one context of the process at a time. Mesa fills a table of functions
+/// when depths are first written to a texture (texstore_depth_stencil in its texstore.c), and takes
+/// no lock: of two threads that draw for the first time, or for the first time since the driver was
+/// loaded again, one emptied the table while the other called a function of it.
+void write_first_depths(const GladGLContext& gl) {
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
+    const Texture depth = create_texture_2d(gl, GL_DEPTH_COMPONENT32F, 1, 1);
+    constexpr float farthest = 0.0F;
+    gl.ClearTexImage(depth.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &farthest);
+}
+
 }  // namespace
 
 Context::Impl::Impl(egl::RawContext made, DeviceInfo info, const egl::OpenDisplay& display,
@@ -75,6 +89,7 @@ Context::Impl::Impl(egl::RawContext made, DeviceInfo info, const egl::OpenDispla
     query_limits();
     if (debug) start_debug_output();
     make_mark();
+    write_first_depths(gl);
     // The driver may not know a query above; the caller's first check must not report that error.
     while (gl.GetError() != GL_NO_ERROR) {
     }
