@@ -32,6 +32,9 @@ from ._late import late_names
 if TYPE_CHECKING:
     from . import doctor, explore, plot, truth
     from ._warnings import ConventionWarning, RendererWarning, SceneWarning
+    from .batches.captures import capture_scenes
+    from .batches.cubemaps import CubeMapBatch
+    from .batches.frames import FrameBatch
     from .data import sample_data
     from .io.cubemaps import load_cubemap, load_environment
     from .io.images import load_image, save_animation, save_image
@@ -45,6 +48,9 @@ else:
     __getattr__, __dir__ = late_names(
         {
             "_warnings": ["ConventionWarning", "RendererWarning", "SceneWarning"],
+            "batches.captures": ["capture_scenes"],
+            "batches.cubemaps": ["CubeMapBatch"],
+            "batches.frames": ["FrameBatch"],
             "data": ["sample_data"],
             "io.cubemaps": ["load_cubemap", "load_environment"],
             "io.images": ["load_image", "save_animation", "save_image"],
@@ -72,11 +78,14 @@ else:
 __all__ = [
     "ClippingWarning",
     "ConventionWarning",
+    "CubeMapBatch",
+    "FrameBatch",
     "RendererWarning",
     "SceneWarning",
     "Viewer",
     "__version__",
     "brdf",
+    "capture_scenes",
     "doctor",
     "explore",
     "fresnel",
