@@ -95,7 +95,8 @@ def save_difference(got, expected, difference, name):
     strips = [strips[0] / scale, strips[1] / scale, strips[2] / worst]
     pixels = np.clip(np.nan_to_num(np.concatenate(strips), posinf=1.0), 0, 1) * 255
     FAILURES.mkdir(exist_ok=True)
-    path = FAILURES / (re.sub(r"[^\w.+-]+", "_", f"{current_test()}-{name}") + ".png")
+    words = re.sub(r"[^\w.+-]+", "_", f"{current_test()}-{name}")
+    path = FAILURES / (words[:200] + ".png")  # a file's name has at most 255 bytes
     Image.fromarray(pixels.astype(np.uint8)).save(path)
     return path
 

@@ -86,6 +86,16 @@ def some(world, rng, kind):
     return one(rng, *world.things(kind))
 
 
+def quick_material(world, rng):
+    """A random material of the world whose programs compile fast, also in a scene with many lights and shadows.
+
+    Where a node's material comes from has nothing to do with its kind, so edits that give materials to many nodes
+    leave out StandardMaterial, each of whose variants takes a second or two.
+    """
+    quick = [m for m in world.things(cc.Material) if not isinstance(m, cc.StandardMaterial)]
+    return one(rng, *quick, cc.BasicMaterial(color=rng.random(3)))
+
+
 def random_node(world, rng, scene=None):
     return one(rng, *(scene or world.scene).nodes)
 
@@ -192,7 +202,7 @@ def uniforms_of_shader(world, rng, thing):
 
 def variants(world, rng, thing):
     names = world.scene.variants or ("day", "night")
-    return {name: one(rng, *world.things(cc.Material)) for name in names if rng.random() < 0.7}
+    return {name: quick_material(world, rng) for name in names if rng.random() < 0.7}
 
 
 def variant(world, rng, thing):
@@ -200,7 +210,7 @@ def variant(world, rng, thing):
     if not thing.variants:
         thing.variants = ("day", "night")
     for node in thing.nodes[-3:]:
-        node.variants = {"day": cc.PhongMaterial(color=rng.random(3))}
+        node.variants = {"day": cc.BasicMaterial(color=rng.random(3))}
     return one(rng, None, *thing.variants)
 
 
@@ -715,10 +725,7 @@ def method_show_variants(world, rng, draw):
     scene.variants = ("day", "night")
     nodes = [node for node in scene.nodes if node.material is not None and rng.random() < 0.3]
     for node in nodes:
-        node.variants = {
-            name: one(rng, *world.things(cc.Material), cc.PhongMaterial(color=rng.random(3)))
-            for name in scene.variants
-        }
+        node.variants = {name: quick_material(world, rng) for name in scene.variants}
     for name in ("day", "night", None):
         scene.variant = name
         draw()

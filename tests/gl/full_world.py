@@ -1,4 +1,10 @@
-"""A small world that has at least one of everything whose properties can be set, and all pictures of it."""
+"""A small world that has at least one of everything whose properties can be set, and all pictures of it.
+
+A driver compiles a program again for each format, depth format, wrap and filter with which it is used, and these tests
+draw with hundreds of programs. So all worlds begin with the same images but for their pixels, pictures share formats
+where their question is another one, and the lights have a decay and a range from the start. Edits bring the rest, and
+the crowds of test_incremental.py follow every format.
+"""
 
 from dataclasses import dataclass, field
 
@@ -36,15 +42,20 @@ EFFECT_SOURCES = (
 )
 
 
+def some_image(rng, mipmaps, wrap):
+    return cc.Image(rng.integers(0, 256, (6, 5, 3), dtype=np.uint8), mipmaps=mipmaps, wrap=wrap)
+
+
 def random_image(rng):
-    pixels = rng.integers(0, 256, (6, 5, 3), dtype=np.uint8)
-    return cc.Image(
-        pixels, mipmaps=bool(rng.integers(2)), wrap="repeat" if rng.integers(2) else "clamp"
-    )
+    return some_image(rng, bool(rng.integers(2)), "repeat" if rng.integers(2) else "clamp")
+
+
+def some_cube(rng, mipmaps):
+    return cc.CubeMap(rng.random((6, 4, 4, 3), dtype=np.float32), mipmaps=mipmaps)
 
 
 def random_cube(rng):
-    return cc.CubeMap(rng.random((6, 4, 4, 3), dtype=np.float32), mipmaps=bool(rng.integers(2)))
+    return some_cube(rng, bool(rng.integers(2)))
 
 
 def random_effect(rng):
@@ -124,7 +135,7 @@ class FullWorld:
 
 
 def inner_scene(rng):
-    scene = cc.Scene(background=rng.random(3), environment=random_cube(rng))
+    scene = cc.Scene(background=rng.random(3), environment=some_cube(rng, mipmaps=True))
     scene.add(cc.PointLight(position=(2, 4, 1)))
     scene.add(cc.Mesh.box(0.6), cc.PhongMaterial(color=rng.random(3)), position=(0.7, 0, 0))
     scene.add(cc.Mesh.box(0.5), cc.BasicMaterial(color=rng.random(3)), position=(-0.5, 0.4, 0))
@@ -132,9 +143,11 @@ def inner_scene(rng):
 
 
 def full_world(rng):
-    scene = cc.Scene(environment=random_cube(rng))
+    scene = cc.Scene(environment=some_cube(rng, mipmaps=True), environment_intensity=0.9)
     inner, spare = inner_scene(rng), inner_scene(rng)
-    images, cubes = [random_image(rng) for _ in range(2)], [random_cube(rng) for _ in range(2)]
+    images = [some_image(rng, True, "repeat"), some_image(rng, False, "clamp")]
+    cubes = [some_cube(rng, True), some_cube(rng, False)]
+    effects = [cc.ImageEffect(source, textures={"veil": images[1]}) for source in EFFECT_SOURCES]
     meshes = [colored_box(), cc.Mesh.sphere(0.4, 12, 6), cc.Mesh.box(0.5), cc.Mesh.plane(0.8, 0.8)]
     camera = cc.PerspectiveCamera(fov=65, position=(3, 1, 2), target=(0, 0, 0))
     lens = camera.projection(aspect=SIZE[0] / SIZE[1])
@@ -148,7 +161,7 @@ def full_world(rng):
             cc.Camera(view=random_camera(rng).view, projection=lens),
         ],
         stereo=cc.StereoCamera(random_camera(rng), random_camera(rng), layout="side_by_side"),
-        effects=[random_effect(rng)],
+        effects=effects[:1],
         meshes=meshes,
         cubes=cubes,
         images=images,
@@ -156,14 +169,19 @@ def full_world(rng):
     scene.add(cc.PointLight(position=(2, 4, 1), shadow=cc.Shadow(size=24)))
     scene.add(cc.DirectionalLight((-1, -2, 0.4), intensity=0.4, shadow=cc.Shadow(size=32)))
     scene.add(cc.SpotLight((2, 3, 2), (-2, -3, -2), angle=50, shadow=cc.Shadow(size=32, radius=0)))
-    scene.add(cc.PointLight(position=(-2, 1, 2), intensity=0.3))
+    scene.add(cc.PointLight(position=(-2, 1, 2), intensity=0.3, decay=1, range=30))
     scene.add(cc.AmbientLight(intensity=0.2))
 
     inner_camera = cc.PerspectiveCamera(fov=50, position=(0.5, 0.6, 2), target=(0, 0, 0))
     world.textures = [
         cc.RenderTexture(inner, inner_camera, size=(12, 9), mipmaps=True, name="inner"),
         cc.RenderTexture(
-            scene, random_camera(rng), size=(14, 10), effects=[random_effect(rng)], name="monitor"
+            scene,
+            random_camera(rng),
+            size=(14, 10),
+            format="rgba32f",
+            effects=effects[1:],
+            name="monitor",
         ),
     ]
     group = scene.add(name="group")
@@ -176,8 +194,8 @@ def full_world(rng):
         cc.Probe(
             position=(0.3, 0.2, 0.1), size=12, format="rgba32f", box=((-2, -2, -3), (2, 1, 2))
         ),
-        cc.Probe(position=(-1, 0.3, 0.5), size=10, box=((-4, -1, -2), (1, 2, 2))),
-        cc.Probe(size=8, format="rgba8"),
+        cc.Probe(position=(-1, 0.3, 0.5), size=10, format="rgba32f", box=((-4, -1, -2), (1, 2, 2))),
+        cc.Probe(size=8, format="rgba32f"),
     ]
     mirror, glass, shown = world.probes
     for probe, low, high in ((mirror, -1, 0.5), (glass, 0, 2)):
@@ -286,14 +304,15 @@ def pictures(renderer, world):
         outputs = (*outputs, "heat")  # that the sources of this world declare
     add_frame("frame", camera, format="rgba32f", outputs=outputs, **stencils)
     add_frame("effects", flat, effects=world.effects, samples=4)
-    add_frame("matrices", matrices, tonemap="aces", **stencils)
-    add_frame("stereo", world.stereo)
-    cube = refused(lambda: renderer.capture(scene, (0.1, 0.2, 0.3), 10, outputs=("id",)))
+    add_frame("matrices", matrices, tonemap="aces")
+    add_frame("stereo", world.stereo, format="rgba32f")
+    shaded = {"outputs": outputs, **stencils}
+    cube = refused(lambda: renderer.capture(scene, (0.1, 0.2, 0.3), 10, **shaded))
     if isinstance(cube, str):
         found["capture"] = cube
     else:
         found["capture"], found["capture id"] = cube.faces, cube.id
-    options = {"outputs": ("id",), "depth_order": "farthest"}
+    options = {"depth_order": "farthest", **shaded}
     behind = refused(lambda: renderer.capture(scene, (0.1, 0.2, 0.3), 10, **options))
     if isinstance(behind, str):
         found["farthest"] = behind

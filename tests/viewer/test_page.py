@@ -3,11 +3,13 @@
 import contextlib
 import json
 import os
+import socket
 import time
 import tracemalloc
 from urllib.parse import urlsplit
 
 import numpy as np
+import psutil
 import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
@@ -361,17 +363,29 @@ def test_closing_leaves_no_thread_and_no_socket():
         server.add(TinyView())
 
 
+def test_no_message_waits_until_the_one_before_it_was_confirmed(server, view):
+    """TCP_NODELAY: without it the second message of each frame waits 40 ms."""
+    with open_socket(server.add(view)):
+        own = [c for c in psutil.Process().net_connections("tcp") if c.status == "ESTABLISHED"]
+        ends = [c.fd for c in own if c.laddr.port == server.port]
+        assert ends
+        for end in ends:
+            with socket.socket(fileno=os.dup(end)) as copy:
+                assert copy.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
+
+
 def test_closing_is_quick_with_browsers_that_do_nothing():
     server = PageServer()
     url = server.add(TinyView())
     parts = urlsplit(url)
-    with open_socket(url), open_socket(url):
-        import socket
-
-        with socket.create_connection((parts.hostname, server.port)):
-            start = time.monotonic()
-            server.close()
-            assert time.monotonic() - start < 3
+    with (
+        open_socket(url),
+        open_socket(url),
+        socket.create_connection((parts.hostname, server.port)),
+    ):
+        start = time.monotonic()
+        server.close()
+        assert time.monotonic() - start < 3
 
 
 def test_a_flood_of_events_is_merged_and_memory_stays(opened, view):

@@ -208,9 +208,13 @@ def _listening(host: str, port: int) -> socket.socket:
         ) from error
     family, _, _, _, place = found[0]
     try:
-        return socket.create_server(place[:2], family=family, backlog=128)
+        made = socket.create_server(place[:2], family=family, backlog=128)
     except OSError as error:
         raise OSError(f"cannot listen on {host}, port {port}: {error.strerror or error}") from error
+    # Its connections inherit this. asyncio sets it only for sockets made with the number of TCP. Without it a frame,
+    # which is two messages, waits until the other side has confirmed the first: 40 ms.
+    made.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    return made
 
 
 def _names(host: str) -> list[str]:
