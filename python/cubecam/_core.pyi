@@ -9476,7 +9476,7 @@ class Renderer:
         outputs : iterable of str
             Further numbers for each texel, as in `Renderer.capture`.
         rotations : array_like (P, 4), optional
-            Quaternions x, y, z, w that turn the axes of each cube against the world's, of any length but 0. None: no cube
+            Quaternions w, x, y, z that turn the axes of each cube against the world's, of any length but 0. None: no cube
             is turned.
         near, far : float
             Clip distances, world units, 0 < near < far.
@@ -9887,7 +9887,7 @@ class _CaptureBatch:
     @property
     def most_cubes(self) -> int: ...
     @property
-    def outputs(self) -> list[tuple[str, int, np.dtype[object]]]: ...
+    def outputs(self) -> list[tuple[str, int, np.dtype[np.generic]]]: ...
     @property
     def size(self) -> int: ...
 

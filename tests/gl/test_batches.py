@@ -4,6 +4,7 @@ import gc
 import pickle
 import threading
 import weakref
+from typing import Any
 
 import numpy as np
 import pytest
@@ -142,12 +143,12 @@ def test_a_world_with_everything(any_path, rng):
 
 
 @pytest.mark.parametrize("background", [(0.1, 0.2, 0.3), (1e-9, 7e4, 0.5, 0.25)])
-@pytest.mark.parametrize("format", ["rgba8", "rgba16f", "rgba32f", "rgb565"])
-def test_faces_that_show_nothing(renderer, format, background):
+@pytest.mark.parametrize("texels", ["rgba8", "rgba16f", "rgba32f", "rgb565"])
+def test_faces_that_show_nothing(renderer, texels, background):
     """They are filled without the driver, with the numbers that it would have written."""
     scene = cc.Scene(background=background)
     scene.add(cc.Mesh.box(0.2), cc.BasicMaterial(), position=(0, 0, -2))
-    options = {"format": format, "outputs": [*SHAPED, "depth"]}
+    options = {"format": texels, "outputs": [*SHAPED, "depth"]}
     positions = [(0, 0, 0), (0, 0, -4), (0, 0, 500)]
     batch = renderer.capture_many(scene, positions, 13, far=100, **options)
     assert_same(batch, [renderer.capture(scene, p, 13, far=100, **options) for p in positions])
@@ -258,8 +259,8 @@ def test_batches_in_threads(renderer, rng):
 
 def test_frames_of_many_cameras(renderer, rng):
     scene = boxes(rng)
-    cameras = [cc.PerspectiveCamera(position=p, target=(0, 0, 0)) for p in places(rng, 4, 4)]
-    cameras.append(cc.StereoCamera(cameras[0], cameras[1], layout="top_bottom"))
+    single = [cc.PerspectiveCamera(position=p, target=(0, 0, 0)) for p in places(rng, 4, 4)]
+    cameras = [*single, cc.StereoCamera(single[0], single[1], layout="top_bottom")]
     options = {"outputs": ["distance", "normal"], "tonemap": "aces", "encode": "srgb", "samples": 4}
     batch = renderer.render_many(scene, cameras, (24, 16), **options)
     assert batch.color.shape == (5, 16, 24, 4)
@@ -296,7 +297,7 @@ def test_wrong_cameras(renderer, cameras, error, message):
 
 def test_scenes_live_until_they_are_captured(renderer):
     mesh = cc.Mesh.box(1)
-    made = []
+    made: list[weakref.ref[cc.Scene]] = []
 
     def make_scene(number):
         gc.collect()
@@ -311,6 +312,7 @@ def test_scenes_live_until_they_are_captured(renderer):
         make_scene, 5, position=at, size=8, renderer=renderer, outputs=["distance"]
     )
     assert not renderer.closed
+    assert batch.positions is not None
     assert np.array_equal(batch.positions, at)
     for number in range(5):
         made.clear()
@@ -321,11 +323,15 @@ def test_scenes_live_until_they_are_captured(renderer):
 
 
 def test_wrong_scenes(renderer):
+    nothing: Any = lambda number: None  # noqa: E731
+    broken: Any = lambda number: 1 / 0  # noqa: E731
     with pytest.raises(TypeError, match="make_scene: expected it to give a Scene, got None"):
-        cc.capture_scenes(lambda number: None, 2, size=8, renderer=renderer)
+        cc.capture_scenes(nothing, 2, size=8, renderer=renderer)
     with pytest.raises(ZeroDivisionError):
-        cc.capture_scenes(lambda number: 1 / 0, 2, size=8, renderer=renderer)
-    with pytest.raises(ValueError, match=r"position: expected shape \(3,\) or \(2, 3\), got \(2,\)"):
+        cc.capture_scenes(broken, 2, size=8, renderer=renderer)
+    with pytest.raises(
+        ValueError, match=r"position: expected shape \(3,\) or \(2, 3\), got \(2,\)"
+    ):
         cc.capture_scenes(lambda number: cc.Scene(), 2, position=(0, 0), size=8, renderer=renderer)
     with pytest.raises(ValueError, match="size"):
         cc.capture_scenes(lambda number: cc.Scene(), 0, size=0, renderer=renderer)
@@ -334,7 +340,7 @@ def test_wrong_scenes(renderer):
         photograph = cc.CubeMap(np.full((6, 2, 2, 3), 9, np.uint8), encoding="srgb")
         return cc.Scene(background=photograph if number == 1 else (0.5, 0.5, 0.5))
 
-    with pytest.raises(ValueError, match="same outputs and encoding.*'srgb' from number 1"):
+    with pytest.raises(ValueError, match=r"same outputs and encoding.*'srgb' from number 1"):
         cc.capture_scenes(one_in_srgb, 2, size=8, renderer=renderer)
 
 
