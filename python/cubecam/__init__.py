@@ -31,6 +31,7 @@ from ._late import late_names
 
 if TYPE_CHECKING:
     from . import doctor, explore, plot, truth
+    from ._futures import PictureFuture
     from ._warnings import ConventionWarning, RendererWarning, SceneWarning
     from .data import sample_data
     from .io.cubemaps import load_cubemap, load_environment
@@ -44,6 +45,7 @@ else:
     # What is written in Python needs numpy, which takes more time to load than the core: `cubecam info` does without.
     __getattr__, __dir__ = late_names(
         {
+            "_futures": ["PictureFuture"],
             "_warnings": ["ConventionWarning", "RendererWarning", "SceneWarning"],
             "data": ["sample_data"],
             "io.cubemaps": ["load_cubemap", "load_environment"],
@@ -72,6 +74,7 @@ else:
 __all__ = [
     "ClippingWarning",
     "ConventionWarning",
+    "PictureFuture",
     "RendererWarning",
     "SceneWarning",
     "Viewer",

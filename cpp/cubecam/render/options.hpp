@@ -58,6 +58,9 @@ struct CaptureOptions {
     DepthOrder depth_order = DepthOrder::nearest;
 };
 
+/// Throws std::invalid_argument for a position that is not finite, or clip distances out of order.
+void check(const CaptureOptions& options);
+
 /// Both functions throw std::invalid_argument for options that do not fit together: outputs that
 /// need another depth format, tone mapping without a colour, a picture without any buffer.
 void check_buffers(const FrameOptions& options);

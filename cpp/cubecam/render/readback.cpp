@@ -11,7 +11,9 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace cubecam {
@@ -46,15 +48,21 @@ Given given_output(const ShadedOutput& output) {
     }
 }
 
-/// Reads all layers of a target. What `picture` and `outputs` return is filled by `finish`: all
-/// copies are requested first, and the GPU is waited for once.
-class Reader {
+/// Reads all layers of a target. What `picture` and `outputs` return is filled later: by `start`,
+/// or, where pixels travel, by `arrive`. All copies are requested first, and the GPU is waited for
+/// once; after `start` the target may be drawn into again.
+class Reader : public PixelsUnderWay {
 public:
-    /// `buffer` is null for a driver that needs none.
-    Reader(const GladGLContext& gl, Target& target, ResultPool& pool, ReadBuffer* buffer)
-        : gl_(gl), target_(target), d_(target.description()), pool_(pool), buffer_(buffer) {
+    /// `ring` is null for a driver that needs none.
+    Reader(const GladGLContext& gl, Target& target, ResultPool& pool, ReadRing* ring)
+        : gl_(gl), target_(target), d_(target.description()), pool_(pool), ring_(ring) {
         gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     }
+    ~Reader() override {
+        if (slot_ != nullptr) slot_->release();
+    }
+    Reader(const Reader&) = delete;
+    Reader& operator=(const Reader&) = delete;
 
     Result picture() {
         Layers& layers = d_.post_processed        ? target_.post_processed_pass()
@@ -70,12 +78,20 @@ public:
         });
     }
 
-    void finish() {
-        if (buffer_ == nullptr) {
+    /// Returns whether all pixels are there; else they are under way.
+    bool start() {
+        if (ring_ == nullptr) {
             read_now(0);
         } else {
-            read_through_buffer();
+            request_all();
         }
+        if (slot_ != nullptr) return false;
+        for (const auto& turn : turns_) turn();
+        return true;
+    }
+
+    void arrive() override {
+        place_requested();
         for (const auto& turn : turns_) turn();
     }
 
@@ -200,34 +216,40 @@ private:
         }
     }
 
-    void read_through_buffer() {
-        for (std::size_t first = 0; first < parts_.size();) {
+    /// Requests all parts. Those that the last buffer holds are then under way.
+    void request_all() {
+        while (end_ < parts_.size()) {
             poll_interrupts();
-            std::size_t bytes = given_bytes(parts_[first]);
-            std::size_t end = first + 1;
-            while (end < parts_.size() &&
-                   aligned(bytes) + given_bytes(parts_[end]) <= ReadBuffer::most_bytes) {
-                bytes = aligned(bytes) + given_bytes(parts_[end++]);
+            if (slot_ != nullptr) place_requested();  // a large picture: one buffer after the other
+            begun_ = end_++;
+            std::size_t bytes = given_bytes(parts_[begun_]);
+            while (end_ < parts_.size() &&
+                   aligned(bytes) + given_bytes(parts_[end_]) <= ReadRing::most_bytes) {
+                bytes = aligned(bytes) + given_bytes(parts_[end_++]);
             }
             try {
-                buffer_->bind(gl_, bytes);
+                slot_ = ring_->take(bytes);
             } catch (const GlError& error) {
                 if (error.code() != GL_OUT_OF_MEMORY) throw;
-                return read_now(first);
+                return read_now(begun_);
             }
             std::size_t offset = 0;
-            for (std::size_t i = first; i < end; ++i) {
+            for (std::size_t i = begun_; i < end_; ++i) {
                 request(parts_[i], reinterpret_cast<void*>(offset));
                 offset = aligned(offset + given_bytes(parts_[i]));
             }
-            buffer_->read(gl_, bytes, [&](const std::byte* held) {
-                for (std::size_t i = first; i < end; ++i) {
-                    place(parts_[i], held);
-                    held += aligned(given_bytes(parts_[i]));
-                }
-            });
-            first = end;
+            slot_->requested(gl_);
         }
+    }
+
+    /// Waits for the parts in the buffer, and copies them into their results.
+    void place_requested() {
+        const std::byte* held = slot_->wait(gl_);
+        for (std::size_t i = begun_; i < end_; ++i) {
+            place(parts_[i], held);
+            held += aligned(given_bytes(parts_[i]));
+        }
+        ring_->give_back(*std::exchange(slot_, nullptr));
     }
 
     /// An offset must be a multiple of the size of a component (GL 4.5 section 18.2.2).
@@ -256,15 +278,26 @@ private:
 
     const GladGLContext& gl_;
     Target& target_;
-    const TargetDescription& d_;
+    const TargetDescription d_;
     ResultPool& pool_;
-    ReadBuffer* buffer_;
+    ReadRing* ring_;
+    std::shared_ptr<ReadRing::Slot> slot_;  // of the parts that are under way; null: none are
+    std::size_t begun_ = 0, end_ = 0;       // these parts
     std::vector<Part> parts_;
     std::vector<std::function<void()>> turns_;  // of the results, once they are read
 };
 
-ReadBuffer* needed(const gl::Context& context, ReadBuffer& buffer) {
-    return context.software() ? nullptr : &buffer;
+ReadRing* needed(const gl::Context& context, ReadRing& ring) {
+    return context.software() && !ReadRing::for_all_drivers ? nullptr : &ring;
+}
+
+/// Begins to read. A GPU goes on meanwhile; a software driver is waited for at a pace.
+std::unique_ptr<PixelsUnderWay> begin(const gl::Context& context, std::unique_ptr<Reader> reader,
+                                      const char* what) {
+    if (context.software()) context.pace().finish(context.gl());
+    const bool there = reader->start();
+    gl::check_gl(context.gl(), what);
+    return there ? nullptr : std::move(reader);
 }
 
 }  // namespace
@@ -294,32 +327,32 @@ std::size_t result_bytes(const TargetDescription& d) {
     return layer * (texel * static_cast<std::size_t>(d.layers()) + passing);
 }
 
-Frame read_frame(const gl::Context& context, Target& target, ResultPool& pool, ReadBuffer& buffer) {
+Reading<Frame> start_frame(const gl::Context& context, Target& target, ResultPool& pool,
+                           ReadRing& ring) {
     const TargetDescription& d = target.description();
-    Reader reader(context.gl(), target, pool, needed(context, buffer));
+    auto reader =
+        std::make_unique<Reader>(context.gl(), target, pool, needed(context, ring));
     Frame frame;
     frame.width = d.width;
     frame.height = d.height * d.layers();
     frame.format = d.format;
-    if (d.color) frame.color = reader.picture();
-    frame.outputs = reader.outputs();
-    context.pace().finish(context.gl());
-    reader.finish();
-    gl::check_gl(context.gl(), "reading a frame");
-    return frame;
+    if (d.color) frame.color = reader->picture();
+    frame.outputs = reader->outputs();
+    return {std::move(frame), begin(context, std::move(reader), "reading a frame")};
 }
 
-std::shared_ptr<CubeMap> read_cube(const gl::Context& context, Target& target, ResultPool& pool,
-                                   ReadBuffer& buffer, Encoding encoding) {
+Reading<std::shared_ptr<CubeMap>> start_cube(const gl::Context& context, Target& target,
+                                             ResultPool& pool, ReadRing& ring, Encoding encoding) {
     const TargetDescription& d = target.description();
-    Reader reader(context.gl(), target, pool, needed(context, buffer));
-    Result color = reader.picture();
-    OutputList outputs = reader.outputs();
-    context.pace().finish(context.gl());
-    reader.finish();
-    gl::check_gl(context.gl(), "reading a cubemap");
-    return std::make_shared<CubeMap>(d.width, 4, dtype_of(d.format), std::move(color), d.mipmaps,
-                                     std::move(outputs), encoding);
+    auto reader =
+        std::make_unique<Reader>(context.gl(), target, pool, needed(context, ring));
+    Result color = reader->picture();
+    OutputList outputs = reader->outputs();
+    std::unique_ptr<PixelsUnderWay> pixels =
+        begin(context, std::move(reader), "reading a cubemap");
+    return {std::make_shared<CubeMap>(d.width, 4, dtype_of(d.format), std::move(color), d.mipmaps,
+                                      std::move(outputs), encoding),
+            std::move(pixels)};
 }
 
 }  // namespace cubecam
