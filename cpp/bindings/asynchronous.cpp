@@ -1,5 +1,8 @@
 #include "asynchronous.hpp"
 
+#include "objects.hpp"
+#include "values.hpp"
+
 #include "cubecam/gl/context.hpp"
 #include "cubecam/render/resources/read_ring.hpp"
 
@@ -26,7 +29,7 @@ bool may_wait(Renderer& renderer) {
 }  // namespace
 
 py::object submit(const std::shared_ptr<Renderer>& renderer, std::size_t bytes,
-                  std::unique_ptr<LaterCall> call) {
+                  std::shared_ptr<LaterCall> call) {
     submitted = true;
     return futures().attr("submit")(renderer, std::move(call), bytes, may_wait(*renderer));
 }
@@ -37,9 +40,11 @@ void end_submitted(const std::shared_ptr<Renderer>& renderer, bool drop) {
 }
 
 void bind_later_call(py::module_& module) {
-    py::class_<LaterCall>(module, "_LaterCall", "A call of a renderer that waits to be drawn.")
+    declare<LaterCall>(module, "_LaterCall", "A call of a renderer that waits to be drawn.")
         .def("join_line", &LaterCall::join_line,
              "Take a place in the line of the renderer's calls: in the order of drawing.")
+        .def("leave_line", &LaterCall::leave_line,
+             "Leave it: the call will not be drawn. Nothing if it is being drawn.")
         .def("draw", &LaterCall::draw,
              "Draw. Returns whether the pixels are there; if not, the next call can be drawn.")
         .def("result", &LaterCall::result, "Wait for the pixels, and give the result.")
@@ -47,7 +52,7 @@ void bind_later_call(py::module_& module) {
                       "list of str: what the last of these two had to tell, also if it raised.");
     module.def(
         "_read_through_buffers",
-        [](bool always) { return ReadRing::for_all_drivers.exchange(always); },
+        [](Flag always) { return ReadRing::for_all_drivers.exchange(static_cast<bool>(always)); },
         py::arg("always"),
         "For tests: software drivers read pictures through buffers, as GPUs do; returns the value "
         "before.");

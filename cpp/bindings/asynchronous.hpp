@@ -4,6 +4,7 @@
 #include "frame.hpp"
 #include "notices.hpp"
 
+#include "cubecam/core/error.hpp"
 #include "cubecam/core/notices.hpp"
 #include "cubecam/render/renderer.hpp"
 
@@ -70,6 +71,8 @@ public:
     /// Takes a place in the line of the renderer's calls. Calls take places in the order in which
     /// they are drawn.
     virtual void join_line() = 0;
+    /// Leaves it: the call will not be drawn. Nothing if it is being drawn.
+    virtual void leave_line() = 0;
     /// Draws, on the thread that serves the renderer. Returns whether the pixels are there; if not,
     /// the next call can be drawn while they travel.
     virtual bool draw() = 0;
@@ -102,9 +105,13 @@ public:
         place_ = std::make_unique<CallLine::Place>(renderer_->line());
     }
 
+    void leave_line() override { place_.reset(); }
+
     bool draw() override {
+        std::unique_ptr<CallLine::Place> taken = std::move(place_);
+        if (taken == nullptr) throw Error("expected a call that stands in the line");
         return work([&] {
-            const std::unique_ptr<CallLine::Place> place = std::move(place_);
+            const auto place = std::move(taken);  // left without the GIL
             renderer_->line().serve_here();
             place->wait();
             pending_ = request_.begin(*renderer_);
@@ -130,7 +137,7 @@ private:
 
 /// The cubecam.PictureFuture of a call whose result takes so many bytes.
 pybind11::object submit(const std::shared_ptr<Renderer>& renderer, std::size_t bytes,
-                        std::unique_ptr<LaterCall> call);
+                        std::shared_ptr<LaterCall> call);
 
 /// Checks a request, and lets it be drawn later.
 template <class Request>
@@ -138,7 +145,7 @@ pybind11::object draw_later(const std::shared_ptr<Renderer>& renderer, Request r
     renderer->check_open();
     const std::size_t bytes = request.check(renderer->info());
     return submit(renderer, bytes,
-                  std::make_unique<LaterCallOf<Request>>(renderer, std::move(request)));
+                  std::make_shared<LaterCallOf<Request>>(renderer, std::move(request)));
 }
 
 /// For close(): waits until the calls that were submitted before are done. `drop`: those that have

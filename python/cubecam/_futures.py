@@ -202,6 +202,7 @@ class _Calls:
         self.unfinished = 0
         self.size = 0  # bytes of their results
         self.thread: threading.Thread | None = None
+        self.taken: _Call | None = None  # by the thread, the last one
 
     def submit(self, call: _core._LaterCall, size: int, may_wait: bool) -> PictureFuture[Any]:
         with self.changed:
@@ -271,7 +272,7 @@ class _Calls:
                 travelling = call
             elif call is not None:
                 self._deliver(call)
-            call = None  # it must not live until the next one comes
+            self.taken = call = None  # it must not live until the next one comes
 
     def _next(self, at_once: bool) -> _Call | None:
         """Take the next call; None if there is none for long, or now, and then the thread is to end or to deliver."""
@@ -280,7 +281,8 @@ class _Calls:
                 self.changed.wait_for(lambda: self.waiting, _IDLE)
             if self.waiting:
                 self.changed.notify_all()
-                return self.waiting.popleft()
+                self.taken = self.waiting.popleft()
+                return self.taken
             if not at_once:
                 self.thread = None
             return None
@@ -319,6 +321,9 @@ def _end_all() -> None:
     _ended = True
     for calls in list(_calls.values()):
         calls.end(drop=True, wait=False)
+        taken = calls.taken
+        if taken is not None and taken.call is not None:
+            taken.call.leave_line()  # the thread may sleep before it draws
 
 
 atexit.register(_end_all)

@@ -30,6 +30,8 @@ BY_POSITION = {
     # The redesign lists these callables.
     "Renderer.render": ["scene", "camera", "size"],
     "Renderer.capture": ["scene", "position", "size"],
+    "Renderer.render_async": ["scene", "camera", "size"],
+    "Renderer.capture_async": ["scene", "position", "size"],
     "Scene.add": ["mesh", "material"],
     "Mesh": ["positions", "indices"],
     "Mesh.box": ["size"],
