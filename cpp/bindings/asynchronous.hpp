@@ -27,12 +27,12 @@ struct FrameRequest {
     FrameOptions options;
 
     std::size_t check(const RendererInfo& info) const {
-        return std::visit(
-            [&](const auto& seen) { return check_call(info, *scene, seen, options); }, camera);
+        return std::visit([&](const auto& seen) { return check_call(info, *scene, seen, options); },
+                          camera);
     }
     Frame draw(Renderer& renderer) const {
-        return std::visit(
-            [&](const auto& seen) { return renderer.render(*scene, seen, options); }, camera);
+        return std::visit([&](const auto& seen) { return renderer.render(*scene, seen, options); },
+                          camera);
     }
     Pending<Frame> begin(Renderer& renderer) const {
         return std::visit(
@@ -101,9 +101,7 @@ public:
     LaterCallOf(std::shared_ptr<Renderer> renderer, Request request)
         : renderer_(std::move(renderer)), request_(std::move(request)) {}
 
-    void join_line() override {
-        place_ = std::make_unique<CallLine::Place>(renderer_->line());
-    }
+    void join_line() override { place_ = std::make_unique<CallLine::Place>(renderer_->line()); }
 
     void leave_line() override { place_.reset(); }
 

@@ -116,14 +116,14 @@ std::shared_ptr<const SceneSnapshot> snapshot_of(const Scene& scene,
     });
 }
 
-FrameRequest
-frame_request(const Scene& scene, const SeenBy& camera, const bindings::SizeLike& size,
-              const OutputNames& outputs, const FormatOrNone& format,
-              const bindings::WholeNumber& samples, bindings::Real exposure,
-              const std::optional<bindings::Choice<tonemap_names>>& tonemap,
-              const std::optional<bindings::Choice<encode_names>>& encode,
-              const bindings::EffectsLike& effects, const bindings::DepthFormatName& depth_format,
-              bindings::Flag screen_reflections) {
+FrameRequest frame_request(const Scene& scene, const SeenBy& camera, const bindings::SizeLike& size,
+                           const OutputNames& outputs, const FormatOrNone& format,
+                           const bindings::WholeNumber& samples, bindings::Real exposure,
+                           const std::optional<bindings::Choice<tonemap_names>>& tonemap,
+                           const std::optional<bindings::Choice<encode_names>>& encode,
+                           const bindings::EffectsLike& effects,
+                           const bindings::DepthFormatName& depth_format,
+                           bindings::Flag screen_reflections) {
     FrameOptions options;
     std::tie(options.width, options.height) = to_size(size);
     options.outputs = to_outputs(outputs);
@@ -139,15 +139,15 @@ frame_request(const Scene& scene, const SeenBy& camera, const bindings::SizeLike
     return {snapshot_of(scene, bindings::to_effects(effects)), std::move(seen), std::move(options)};
 }
 
-CaptureRequest
-capture_request(const Scene& scene, const bindings::ArrayLike& position,
-                const bindings::WholeNumber& size, bindings::Real near, bindings::Real far,
-                const bindings::Nodes& exclude, const OutputNames& outputs,
-                const FormatOrNone& format, const bindings::WholeNumber& samples,
-                const bindings::OrNone<bindings::ArrayLike>& eye,
-                const bindings::DepthFormatName& depth_format,
-                const bindings::Choice<depth_order_names>& depth_order,
-                const bindings::OrNone<bindings::ArrayLike>& rotation) {
+CaptureRequest capture_request(const Scene& scene, const bindings::ArrayLike& position,
+                               const bindings::WholeNumber& size, bindings::Real near,
+                               bindings::Real far, const bindings::Nodes& exclude,
+                               const OutputNames& outputs, const FormatOrNone& format,
+                               const bindings::WholeNumber& samples,
+                               const bindings::OrNone<bindings::ArrayLike>& eye,
+                               const bindings::DepthFormatName& depth_format,
+                               const bindings::Choice<depth_order_names>& depth_order,
+                               const bindings::OrNone<bindings::ArrayLike>& rotation) {
     CaptureOptions options;
     options.position = to_vec3(position, "position");
     options.size = to_int(size, "size");

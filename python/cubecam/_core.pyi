@@ -13,6 +13,7 @@ import typing
 import numpy as np
 import numpy.typing
 
+import cubecam._futures
 import cubecam._shader_inputs
 import cubecam.viewer.controls
 import cubecam.viewer.cube_view
@@ -33,14 +34,17 @@ from cubecam.typing import (
     Encoding,
     Engine,
     FaceName,
+    Fetches,
     FileLayout,
     FisheyeModel,
     Format,
+    InfluenceShape,
     Interpolation,
     Layout,
     MagFilter,
     MinFilter,
     Output,
+    Parallax,
     Pixels,
     Place,
     ProbeUpdate,
@@ -84,8 +88,11 @@ __all__: list[str] = [
     "OrthographicCamera",
     "PerspectiveCamera",
     "PhongMaterial",
+    "PlanarMirror",
     "PointLight",
     "Probe",
+    "ProbeBlend",
+    "ProbeGrid",
     "RenderTexture",
     "Renderer",
     "Scene",
@@ -290,13 +297,13 @@ class Node:
         """
 
     @property
-    def environment(self) -> CubeMap | Probe | None:
+    def environment(self) -> CubeMap | Probe | ProbeBlend | PlanarMirror | None:
         """
-        CubeMap, Probe or None: what mirrors and glass show. None: the scene's environment.
+        CubeMap, Probe, ProbeBlend, PlanarMirror or None: what mirrors and glass show. None: the scene's environment.
         """
 
     @environment.setter
-    def environment(self, value: CubeMap | Probe | None) -> None: ...
+    def environment(self, value: CubeMap | Probe | ProbeBlend | PlanarMirror | None) -> None: ...
     @property
     def id(self) -> int:
         """
@@ -306,7 +313,7 @@ class Node:
     @property
     def in_captures(self) -> bool:
         """
-        bool: False: captures and probes show neither the node nor any node below it. Frames do, and the node still shows its own probe there.
+        bool: False: captures, probes and planar mirrors show neither the node nor any node below it. Frames do, and the node still shows its own probe there.
         """
 
     @in_captures.setter
@@ -522,7 +529,7 @@ class Probe:
         A node that the probe moves with; the axes of the probe stay those of the world. The probe does not
         keep the node alive.
     faces_per_frame : int
-        The greatest number of faces that one call draws, from 1 to 6.
+        The greatest number of faces that one call draws, from 1 to 6; of each bounce, if there are several.
     depth_format : str or None
         The format of the depth and stencil buffer, see `Renderer.render`.
     prefilter : bool, optional
@@ -530,11 +537,51 @@ class Probe:
         face was drawn. None: only if a drawn surface looks it up by roughness. True: always, so that
         ``environment_lod`` in a `ShaderMaterial` finds these levels, too. False: never; rough surfaces then see
         the probe's mipmaps, or the probe as it is.
+    parallax : {"none", "box", "sphere", "distance", "layers"}
+        How a surface finds what its reflected ray meets, in a cube that was captured elsewhere. "none": as if
+        the scene were infinitely far away. "box": the scene lies on the inside of `box`. "sphere": on the inside
+        of the ellipsoid that `box` encloses, a sphere if its edges are equal. A ray from outside that misses the proxy sees
+        the cube as with "none". "distance": the ray is followed through the distances of what the probe captured. "layers":
+        the probe captures the farthest surfaces, too, and the ray finds what the nearest ones hide; such a probe
+        costs twice as much to draw.
+    box : array_like (2, 3), optional
+        The low and the high corner of the proxy, world units; in the space of `proxy_matrix` if there is one. It does not
+        move with the parent.
+    proxy_matrix : array_like (4, 4), optional
+        From the space of `box` to the world, for a room that is turned; its last row is (0, 0, 0, 1). None: the world.
+    fetches : {14, 6, 35}
+        About how many lookups of distance a ray makes with "distance" and "layers". More find thinner things; the cost of
+        a pixel grows with them.
+    bounces : int
+        How many mirrors of a circle a path meets, from 1 to 16; beyond that it sees the scene's environment, or
+        black without one. Probes whose pictures may show each other's users, in view or not, form a circle. With
+        1, the other mirrors of the circle show the environment in this one. All probes of a circle have the
+        largest ``bounces`` among them, so none is preferred. Time and memory grow with it;
+        ``renderer.stats.bounce_changes`` says how much each bounce changed. Without a circle it has no effect.
+    influence : array_like (2, 3), optional
+        Where the probe counts fully in a `ProbeBlend`: the low and the high corner, world units; in the space of
+        `proxy_matrix` if there is one. It does not move with the parent. None: everywhere. It matters to no other use of the probe.
+    influence_shape : {"box", "sphere"}
+        "sphere": the ellipsoid that `influence` encloses, a sphere if its edges are equal.
+    blend_distance : float
+        How far outside of `influence` the probe ceases to count, world units, above 0. Over this distance its weight falls from
+        1 to 0.
+
+    Notes
+    -----
+    With a parallax, rough surfaces look the cube up by the roughness whose lobe, seen from the probe, is as wide as the
+    surface's own lobe where it meets the scene. Irradiance is that of the probe's place. Surfaces that are blended are in the
+    colours, but not in the distances, as in other outputs.
+
+    "box": S. Lagarde and A. Zanuttini, "Local Image-based Lighting with Parallax-corrected Cubemaps", SIGGRAPH 2012. "distance" and
+    "layers": after L. Szirmay-Kalos et al., "Approximate Ray-Tracing on the GPU with Distance Impostors", Eurographics 2005; 1 / z is
+    interpolated, which is exact on planes.
 
     Raises
     ------
     ValueError
-        For a number out of its range, near >= far, or another format or update.
+        For a number out of its range, near >= far, another format, update, parallax or shape, a proxy without a box, a box or
+        influence whose low corner is not below its high one, a singular matrix, or a march without depths of 32 bits.
     TypeError
         For a parent or an excluded object that is not a node.
 
@@ -546,6 +593,18 @@ class Probe:
     >>> ball.environment = cc.Probe(parent=ball, size=128)
     >>> ball.environment.update
     'on_change'
+
+    The walls of a room that reaches from (-5, 0, -4) to (5, 3, 4) are then in their places:
+
+    >>> ball.environment.box = (-5, 0, -4), (5, 3, 4)
+    >>> ball.environment.parallax = "box"
+
+    Two mirrors that face each other, with two reflections of each:
+
+    >>> other = scene.add(cc.Mesh.sphere(.5), cc.MirrorMaterial(), position=(1.2, 1, 0))
+    >>> other.environment = cc.Probe(parent=other, size=128, bounces=2)
+    >>> other.environment.bounces
+    2
     """
 
     def __init__(
@@ -564,6 +623,14 @@ class Probe:
         faces_per_frame: typing.SupportsIndex = 6,
         depth_format: DepthFormat | None = "depth_component32f",
         prefilter: bool | None = None,
+        parallax: Parallax = "none",
+        box: np.typing.ArrayLike | None = None,
+        proxy_matrix: np.typing.ArrayLike | None = None,
+        fetches: Fetches = 14,
+        bounces: typing.SupportsIndex = 1,
+        influence: np.typing.ArrayLike | None = None,
+        influence_shape: InfluenceShape = "box",
+        blend_distance: typing.SupportsFloat | typing.SupportsIndex = 1.0,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Probe) -> str: ...
@@ -582,6 +649,30 @@ class Probe:
         Give the HTML that Jupyter shows.
         """
 
+    @property
+    def blend_distance(self) -> float:
+        """
+        float: how far outside of `influence` the probe ceases to count, world units.
+        """
+
+    @blend_distance.setter
+    def blend_distance(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def bounces(self) -> int:
+        """
+        int: how many mirrors of a circle of probes that see each other a path meets, from 1 to 16.
+        """
+
+    @bounces.setter
+    def bounces(self, value: typing.SupportsIndex) -> None: ...
+    @property
+    def box(self) -> np.typing.NDArray[np.float64] | None:
+        """
+        ndarray (2, 3) float64 or None: the low and the high corner of the proxy, in the world or in the space of `proxy_matrix`; read-only.
+        """
+
+    @box.setter
+    def box(self, value: np.typing.ArrayLike | None) -> None: ...
     @property
     def depth_format(self) -> DepthFormat | None:
         """
@@ -615,6 +706,14 @@ class Probe:
     @far.setter
     def far(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def fetches(self) -> Fetches:
+        """
+        int: 6, 14 or 35 lookups of distance for a ray, at most.
+        """
+
+    @fetches.setter
+    def fetches(self, value: Fetches) -> None: ...
+    @property
     def format(self) -> Format:
         """
         str: "rgba8", "rgba16f", "rgba32f" or "rgb565".
@@ -622,6 +721,22 @@ class Probe:
 
     @format.setter
     def format(self, value: Format) -> None: ...
+    @property
+    def influence(self) -> np.typing.NDArray[np.float64] | None:
+        """
+        ndarray (2, 3) float64 or None: where the probe counts fully in a `ProbeBlend`, the low and the high corner, in the world or in the space of `proxy_matrix`; None: everywhere; read-only.
+        """
+
+    @influence.setter
+    def influence(self, value: np.typing.ArrayLike | None) -> None: ...
+    @property
+    def influence_shape(self) -> InfluenceShape:
+        """
+        str: "box", or "sphere": the ellipsoid that `influence` encloses.
+        """
+
+    @influence_shape.setter
+    def influence_shape(self, value: InfluenceShape) -> None: ...
     @property
     def mipmaps(self) -> bool:
         """
@@ -638,6 +753,14 @@ class Probe:
 
     @near.setter
     def near(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def parallax(self) -> Parallax:
+        """
+        str: "none", "box", "sphere", "distance" or "layers".
+        """
+
+    @parallax.setter
+    def parallax(self, value: Parallax) -> None: ...
     @property
     def parent(self) -> Node | None:
         """
@@ -663,6 +786,14 @@ class Probe:
     @prefilter.setter
     def prefilter(self, value: bool | None) -> None: ...
     @property
+    def proxy_matrix(self) -> np.typing.NDArray[np.float64] | None:
+        """
+        ndarray (4, 4) float64 or None: from the space of `box` to the world; read-only.
+        """
+
+    @proxy_matrix.setter
+    def proxy_matrix(self, value: np.typing.ArrayLike | None) -> None: ...
+    @property
     def samples(self) -> int:
         """
         int: samples of each texel (MSAA); 1 is none.
@@ -686,6 +817,377 @@ class Probe:
 
     @update.setter
     def update(self, value: ProbeUpdate | typing.SupportsIndex) -> None: ...
+
+class PlanarMirror:
+    """
+    What a flat mirror shows, exactly: the scene from behind the mirror, clipped at its plane.
+
+    Assign it to ``node.environment``; the plane is that of the node's mesh, and moves with the node. Each picture
+    that shows the node's front gets a picture of its own of what is in the mirror, of the same size and with the same
+    samples: frames, both eyes of a stereo frame, captures, probes and render textures alike. It is drawn again only
+    where it would change. Where the node shows its back (``double_sided``), it reflects that side.
+
+    The mirror shows all nodes that the picture may show, except its own nodes and those with
+    ``in_captures=False``, with the picture's background behind them. Nodes with one PlanarMirror in one plane, as the
+    tiles of a floor, are one mirror.
+
+    Every material that looks up its environment shows it: `MirrorMaterial`, `StandardMaterial`, `GlassMaterial`, and a
+    `ShaderMaterial` by ``environment(direction)``. On a flat surface each pixel is exact. Other directions are
+    approximations: of normal maps, of normals that are not the plane's, and of rough surfaces. Such a ray is taken to
+    end at ``distance`` from the surface; rays that leave the picture see its border. A rough surface looks up a level of
+    the picture's mipmaps as wide as its lobe at that distance, which blurs near and far things alike. Light that goes
+    through the plane, as what `GlassMaterial` refracts, and the irradiance of `StandardMaterial` are those of the scene's
+    environment.
+
+    Parameters
+    ----------
+    bounces : int
+        A path may meet so many planar mirrors, with this one as the last of them, at least 1. Beyond that the mirror shows the
+        scene's environment, or black. With 1, mirrors in this mirror show that. Facing mirrors need one picture for each bounce;
+        where mirrors see each other in many ways, one for each path, and more than 256 in one call are an error.
+    distance : float
+        How far from the surface bent and rough rays are taken to end, world units, above 0. Flat smooth mirrors do
+        not depend on it.
+
+    Raises
+    ------
+    ValueError
+        For a number out of its range. A picture of a node whose mesh is not flat, within 1e-5 of its size, raises it, too, and
+        says by how much.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> scene = cc.Scene()
+    >>> glass = scene.add(cc.Mesh.plane(2), cc.MirrorMaterial(), environment=cc.PlanarMirror())
+    >>> glass.environment.bounces
+    1
+    """
+
+    def __init__(
+        self: PlanarMirror,
+        *,
+        bounces: typing.SupportsIndex = 1,
+        distance: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
+    def __repr__(self: PlanarMirror) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
+    @property
+    def bounces(self) -> int:
+        """
+        int: how many planar mirrors a path may meet, this one as the last of them.
+        """
+
+    @bounces.setter
+    def bounces(self, value: typing.SupportsIndex) -> None: ...
+    @property
+    def distance(self) -> float:
+        """
+        float: how far from the surface bent and rough rays are taken to end, world units.
+        """
+
+    @distance.setter
+    def distance(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class ProbeBlend:
+    """
+    Several probes as the environment of a node: each point of its surface sees those that reach it.
+
+    Assign it to ``node.environment``. A probe counts fully in its `Probe.influence`, and less and less outside of it, until it
+    ceases to count at its ``blend_distance``. So what a ball reflects does not jump where it rolls from room to room,
+    and a long floor shows each room in its part of it. Every material that looks up its environment shows the blend:
+    `MirrorMaterial`, `StandardMaterial`, `GlassMaterial`, and a `ShaderMaterial`, in which ``environment_at(position,
+    direction)`` sees the probes that reach `position`. Each probe keeps its own parallax, levels by roughness and irradiance.
+
+    With t the distance of a point from the influence of probe i over its ``blend_distance``, the influence is
+    ``w_i = 1 - 3 t^2 + 2 t^3``, 1 inside and 0 from t = 1 on. The weight of a probe is ``w_i / max(1, sum w)``. The
+    scene's environment, black without one, has the rest, ``1 - min(1, sum w)``: it shows where no influence reaches. The
+    weights sum to 1 and are continuous, and so are their slopes, except where the sum of the influences becomes 1.
+
+    The probes do not show the nodes that use the blend, whether they reach them or not.
+
+    Parameters
+    ----------
+    probes : iterable of Probe
+        Any number, each once. Of these at most 4 may reach the bounds of one node; a picture of a scene
+        where more do raises ValueError. Only probes that reach a node which is drawn are drawn.
+
+    Raises
+    ------
+    ValueError
+        For no probe, or one that occurs twice.
+    TypeError
+        For what is no probe.
+
+    Notes
+    -----
+    The proxy of a probe with ``parallax="box"`` or ``"sphere"`` should contain its influence with the blend distance: a
+    point outside of the proxy sees the cube as if it were infinitely far away, which jumps at the proxy's side.
+
+    ``environment_levels``, ``environment_is_local`` and ``environment_position`` of a `ShaderMaterial` are those of the first
+    probe that reaches the node. For the limit, a probe reaches a node if the box around its influence, with the
+    blend distance on all sides, overlaps ``node.world_bounds``. Each further probe costs the lookups of one more
+    environment for every pixel of the node.
+
+    Examples
+    --------
+    Two rooms that meet at x = 0:
+
+    >>> import cubecam as cc
+    >>> left = cc.Probe((-4, 1, 0), influence=((-8, 0, -3), (0, 3, 3)), blend_distance=.5)
+    >>> right = cc.Probe((4, 1, 0), influence=((0, 0, -3), (8, 3, 3)), blend_distance=.5)
+    >>> scene = cc.Scene()
+    >>> ball = scene.add(cc.Mesh.sphere(.5), cc.MirrorMaterial(), position=(-2, 1, 0))
+    >>> ball.environment = cc.ProbeBlend([left, right])
+    >>> len(ball.environment.probes)
+    2
+    """
+
+    def __init__(self: ProbeBlend, probes: collections.abc.Iterable[Probe]) -> None: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
+    def __repr__(self: ProbeBlend) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
+    @property
+    def probes(self) -> tuple[Probe, ...]:
+        """
+        tuple of Probe: in the order in which they were given.
+        """
+
+class ProbeGrid:
+    """
+    Light from all around at the nodes of a grid in a box, for surfaces in between.
+
+    Assign it to ``scene.probe_grid`` and call `bake`. The diffuse part of `StandardMaterial`, its sheen, and
+    ``environment_irradiance(normal)`` of a `ShaderMaterial` then see the light that the nodes around a point captured, in place
+    of the irradiance of their environment; what they reflect is still that of the environment. Walls may lie outside
+    of the box: the light of its border counts up to one cell outside, and from there fades to that of the environment
+    within another cell.
+
+    Parameters
+    ----------
+    box : array_like (2, 3)
+        The low and the high corner, world units: the first and the last node.
+    counts : (int, int, int)
+        Nodes along x, y and z, each at least 2.
+    size : int
+        Texels along an edge of the cubemaps that `bake` captures, from 1 to 128.
+    resolution : int
+        Texels along an edge of the octahedral map of distances of each node, from 4 to 32.
+    visibility : bool
+        True: a node counts less where it does not see a point, and where it lies behind the point's surface. False:
+        trilinear interpolation alone, by which light leaks through walls.
+    normal_bias, view_bias : float
+        The visibility of a point counts at a place before its surface: so far along its normal and towards the viewer, in
+        least steps of the grid, at least 0. Too little darkens surfaces by themselves, too much lets light through thin walls.
+
+    Notes
+    -----
+    Z. Majercik et al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields", JCGT 8(2), 2019. Of the eight
+    nodes round a point each has the product of its trilinear weight and w. With c the cosine of the angle between the
+    normal and the way to the node, d the distance from the node to the biased point, m and s the means of the distance
+    and of its square that the node captured in that direction, and v = abs(m^2 - s), w is ((1 + c) / 2)^2 + .2,
+    times (v / (v + (d - m)^2))^3 where d > m; a w below .2 becomes w^3 / .04. The light of a node are spherical
+    harmonics of orders 0 to 2, as `CubeMap.sh` gives them, with the cosine's factors 1, 2/3 and 1/4 (R. Ramamoorthi and P.
+    Hanrahan, SIGGRAPH 2001); a sum below 0 counts as 0.
+
+    Without visibility a field of light that is linear in space is exact between the nodes. With it, it is not: nodes
+    before a surface count more than those beside it.
+
+    The arrays are the grid: they may be set, and are kept by pickles and saved scenes. Setting a bias or the visibility needs no
+    new bake.
+
+    Raises
+    ------
+    ValueError
+        For an empty box, a number out of its range, a grid that is too large for a texture, or arrays of another shape.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> scene = cc.Scene(background=(1, 1, 1))
+    >>> scene.probe_grid = cc.ProbeGrid(((-1, 0, -1), (1, 2, 1)), (2, 2, 2), size=8)
+    >>> with cc.Renderer() as renderer:
+    ...     scene.probe_grid.bake(renderer, scene)
+    >>> scene.probe_grid.coefficients.shape, scene.probe_grid.distances.shape
+    ((2, 2, 2, 9, 3), (2, 2, 2, 16, 16, 2))
+    """
+
+    def __init__(
+        self: ProbeGrid,
+        box: np.typing.ArrayLike,
+        counts: tuple[int, int, int],
+        *,
+        size: typing.SupportsIndex = 32,
+        resolution: typing.SupportsIndex = 16,
+        visibility: bool = True,
+        normal_bias: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        view_bias: typing.SupportsFloat | typing.SupportsIndex = 0.2,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
+    def __repr__(self: ProbeGrid) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def __setstate__(self: ProbeGrid, state: object) -> None:
+        """
+        For unpickling.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
+    def bake(
+        self,
+        renderer: Renderer,
+        scene: Scene,
+        *,
+        bounces: int = 1,
+        exclude: collections.abc.Iterable[Node] = tuple(),
+        near: float = 0.01,
+        far: float = 1000.0,
+        progress: collections.abc.Callable[[int, int], object] | None = None,
+    ) -> None:
+        """
+        Capture a scene at all nodes of the grid, and keep what they see.
+
+        With one bounce a node sees lamps, sky and emission, and surfaces as lights alone light them. With more, surfaces
+        of later rounds have the light of the round before as well, and so paths of one more reflection. In the first round
+        the grid is black: the irradiance of the scene's environment, which does not know of walls, counts nowhere in the
+        box.
+
+        Nodes that lie in bodies are not `ProbeGrid.active`: those that see the backs of single-sided surfaces in more than
+        a quarter of all directions. They get the mean light of the active nodes beside them.
+
+        Parameters
+        ----------
+        renderer : Renderer
+            What captures.
+        scene : Scene
+            What is captured; its `Scene.probe_grid` is this one meanwhile, and afterwards what it was.
+        bounces : int
+            How many reflections by surfaces paths have at most, from 1 to 16.
+        exclude : iterable of Node
+            Nodes that are left out with all nodes below them, for example those that move.
+        near, far : float
+            Clip distances of the captures, world units, 0 < near < far.
+        progress : callable, optional
+            Called after each capture with how many are done and how many there are. If it raises, the grid stays as it was.
+
+        Raises
+        ------
+        TypeError, ValueError, ContextError
+            As `Renderer.capture` raises, and for bounces out of their range.
+
+        Examples
+        --------
+        A white sky lights a matt surface alike from all around:
+
+        >>> import cubecam as cc
+        >>> scene = cc.Scene(background=(1, 1, 1))
+        >>> grid = cc.ProbeGrid(((-1, 0, -1), (1, 2, 1)), (2, 2, 2), size=8)
+        >>> with cc.Renderer() as renderer:
+        ...     grid.bake(renderer, scene)
+        >>> (grid.coefficients[0, 0, 0, 0] / (4 * 3.14159265) ** 0.5).round(4).tolist()
+        [1.0, 1.0, 1.0]
+        """
+
+    @property
+    def active(self) -> np.typing.NDArray[np.bool_]:
+        """
+        ndarray (nz, ny, nx) bool: False for nodes that lie in bodies, which count only where no other node does; read-only.
+        """
+
+    @active.setter
+    def active(self, value: np.typing.ArrayLike) -> None: ...
+    @property
+    def box(self) -> np.typing.NDArray[np.float64]:
+        """
+        ndarray (2, 3) float64: the first and the last node, world; read-only.
+        """
+
+    @property
+    def coefficients(self) -> np.typing.NDArray[np.float32]:
+        """
+        ndarray (nz, ny, nx, 9, 3) float32: integrals of radiance times the basis of `CubeMap.sh` at each node; read-only.
+        """
+
+    @coefficients.setter
+    def coefficients(self, value: np.typing.ArrayLike) -> None: ...
+    @property
+    def counts(self) -> tuple[int, int, int]:
+        """
+        tuple of three int: nodes along x, y and z.
+        """
+
+    @property
+    def distances(self) -> np.typing.NDArray[np.float32]:
+        """
+        ndarray (nz, ny, nx, R, R, 2) float32: means of the distance and of its square round the directions of an octahedral map of R = `resolution`, world units; read-only.
+        """
+
+    @distances.setter
+    def distances(self, value: np.typing.ArrayLike) -> None: ...
+    @property
+    def normal_bias(self) -> float:
+        """
+        float: how far before its surface the visibility of a point counts, in least steps.
+        """
+
+    @normal_bias.setter
+    def normal_bias(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def resolution(self) -> int:
+        """
+        int: texels along an edge of the map of distances of a node.
+        """
+
+    @property
+    def size(self) -> int:
+        """
+        int: texels along an edge of the cubemaps that `bake` captures.
+        """
+
+    @size.setter
+    def size(self, value: typing.SupportsIndex) -> None: ...
+    @property
+    def view_bias(self) -> float:
+        """
+        float: how far towards the viewer the visibility of a point counts, in least steps.
+        """
+
+    @view_bias.setter
+    def view_bias(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def visibility(self) -> bool:
+        """
+        bool: whether nodes that do not see a point count less there.
+        """
+
+    @visibility.setter
+    def visibility(self, value: bool) -> None: ...
 
 class RenderTexture:
     """
@@ -1095,7 +1597,7 @@ class Scene:
         scale: float | np.typing.ArrayLike | None = None,
         matrix: np.typing.ArrayLike | None = None,
         parent: Node | None = None,
-        environment: CubeMap | Probe | None = None,
+        environment: CubeMap | Probe | ProbeBlend | PlanarMirror | None = None,
         visible: bool = True,
         in_captures: bool = True,
         name: str = "",
@@ -1125,7 +1627,7 @@ class Scene:
             Node to parent, in place of position, rotation and scale: not singular, last row (0, 0, 0, 1).
         parent : Node, optional
             A node of this scene that the new node moves with.
-        environment : CubeMap or Probe, optional
+        environment : CubeMap, Probe, ProbeBlend or PlanarMirror, optional
             The surroundings that mirrors and glass show on this node. None: the scene's environment.
         visible : bool
             False: no picture shows the node or any node below it.
@@ -1626,6 +2128,14 @@ class Scene:
         tuple of Node: all nodes of the scene, in order of id.
         """
 
+    @property
+    def probe_grid(self) -> ProbeGrid | None:
+        """
+        ProbeGrid or None: the light that falls on `StandardMaterial` from all around in its box, in place of the environment's.
+        """
+
+    @probe_grid.setter
+    def probe_grid(self, value: ProbeGrid | None) -> None: ...
     @property
     def variant(self) -> str | None:
         """
@@ -5058,9 +5568,10 @@ class GlassMaterial(Material):
     """
     Glass: F * environment(R) + (1 - F) * tint * environment(T).
 
-    R is the reflected direction, and T the refracted direction of GLSL's ``refract``, for a single surface.
-    F is Fresnel's reflectance of a dielectric for unpolarised light: the mean of both polarisations
-    (M. Born and E. Wolf, "Principles of Optics", section 1.5.2). Where there is no T, F is 1.
+    R is the reflected direction, and T the refracted direction of GLSL's ``refract``: at a single surface,
+    or through both sides of the body. F is Fresnel's reflectance of a dielectric for unpolarised light: the
+    mean of both polarisations (M. Born and E. Wolf, "Principles of Optics", section 1.5.2). Where there is
+    no T, F is 1.
 
     Parameters
     ----------
@@ -5075,7 +5586,22 @@ class GlassMaterial(Material):
         From 0, clear, to 1, frosted. A rough surface sees the environment filtered by roughness
         (`CubeMap.prefilter`): round R, moved towards the normal (S. Lagarde and C. de Rousiers, "Moving
         Frostbite to Physically Based Rendering", 2014), and round T for roughness * (2 max(ior, 1/ior) - 2),
-        at most roughness. F stays that of a smooth surface.
+        at most roughness. F stays that of a smooth surface. With two surfaces, see the notes.
+    surfaces : int
+        1: light is refracted where it enters, and the environment is looked up in this direction: right for
+        the surface of water, and the fastest. 2: light goes on through the body, the mesh, is reflected
+        totally inside or refracted again where it leaves, and the environment is looked up from there, with
+        the parallax of a `Probe`.
+    dispersion : float
+        How much red and blue part, as KHR_materials_dispersion defines it: 20 divided by the Abbe number, not
+        negative. Red, green and blue have the indices ior - s, ior and ior + s, with
+        s = (ior - 1) * 0.025 * dispersion; of an ior below 1, the inverses have. Each of them is followed.
+    attenuation_distance : float
+        The way in the body, in world units, after which white light has `attenuation_color`, above 0, as
+        KHR_materials_volume defines it; inf absorbs nothing. With ``surfaces=1`` there is no such way, and
+        nothing is absorbed.
+    attenuation_color : array_like (3,), or str
+        Linear RGB, from 0 to 1.
     opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading, name
         The options of every `Material`.
 
@@ -5084,12 +5610,35 @@ class GlassMaterial(Material):
     ValueError
         For a value out of its range or not finite.
 
+    Notes
+    -----
+    With ``surfaces=2`` a body should be closed, with triangles that are counter-clockwise seen from outside.
+    Each mesh has a small cube of its own inner side, as the middle of its bounds sees it; any number of nodes
+    share it, and it is made again when the vertices move. So a ray finds its way out of what the middle sees
+    directly: all of a ball, a box, a prism or an egg, of a ring, or of a bowl. From other parts, such as the
+    handle of a teapot, and out of open meshes, light does not find its way: it is looked up where it has got
+    to, as with ``surfaces=1``. So is what the back of a double-sided surface shows.
+
+    Light meets the inner side up to four times. If it is reflected totally the fourth time, it leaves the
+    body in that direction. What is reflected there in part is not followed: it is taken to be as bright as
+    what leaves the body. Light does not enter a body again that it has left, or another body inside. The tint
+    counts once.
+
+    A rough body spreads what passes like a mirror of the roughness r' with r'^4 = r^4 (2 v^2 + k ior^2),
+    v = (ior - 1) / 2, after k total reflections: facets that lean by a small angle d turn light by 2 d where
+    a mirror reflects it, by (ior - 1) d where it goes through a surface, and by 2 ior d where it is reflected
+    inside, and variances add up (L. Belcour, "Efficient Rendering of Layered Materials using an Atomic
+    Decomposition with Statistical Operators", 2018). Facets of the two sides are independent.
+
+    `cubecam.truth` follows rays through all surfaces of the scene, whatever `surfaces` says.
+
     Examples
     --------
     >>> import cubecam as cc
     >>> water = cc.GlassMaterial(ior=1.33, tint=(.8, .9, 1))
     >>> water
     GlassMaterial(ior=1.33, tint=(0.8, 0.9, 1, 1))
+    >>> bottle = cc.GlassMaterial(surfaces=2, attenuation_distance=.5, attenuation_color="seagreen")
     """
 
     def __init__(
@@ -5099,6 +5648,10 @@ class GlassMaterial(Material):
         fresnel: bool = True,
         tint: str | np.typing.ArrayLike = (1, 1, 1),
         roughness: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        surfaces: typing.SupportsIndex = 1,
+        dispersion: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        attenuation_distance: typing.SupportsFloat | typing.SupportsIndex = ...,
+        attenuation_color: str | np.typing.ArrayLike = (1, 1, 1),
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
         blend: BlendMode | Blend | None = None,
@@ -5109,6 +5662,30 @@ class GlassMaterial(Material):
         flat_shading: bool = False,
         name: str = "",
     ) -> None: ...
+    @property
+    def attenuation_color(self) -> np.typing.NDArray[np.float32]:
+        """
+        ndarray (3,) float32: linear RGB, from 0 to 1, read-only.
+        """
+
+    @attenuation_color.setter
+    def attenuation_color(self, value: str | np.typing.ArrayLike) -> None: ...
+    @property
+    def attenuation_distance(self) -> float:
+        """
+        float: world units, above 0, after which white light in the body has the attenuation colour; inf: never.
+        """
+
+    @attenuation_distance.setter
+    def attenuation_distance(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def dispersion(self) -> float:
+        """
+        float: 20 divided by the Abbe number, not negative; 0: none.
+        """
+
+    @dispersion.setter
+    def dispersion(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def fresnel(self) -> bool:
         """
@@ -5133,6 +5710,14 @@ class GlassMaterial(Material):
 
     @roughness.setter
     def roughness(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def surfaces(self) -> int:
+        """
+        int: 1, light is refracted where it enters; 2, also where it leaves the body.
+        """
+
+    @surfaces.setter
+    def surfaces(self, value: typing.SupportsIndex) -> None: ...
     @property
     def tint(self) -> np.typing.NDArray[np.float32]:
         """
@@ -5446,6 +6031,8 @@ class ShaderMaterial(Material):
     ``vec3 environment_mip(vec3 direction, float level)``: the light at a level of mipmaps that are averages of
     boxes of texels, whether the environment has mipmaps or not; ``float environment_size()``: the texels along an edge of
     level 0.
+    ``vec3 environment_at(vec3 position, vec3 direction)``: ``environment`` for another world position than the
+    surface's own. The position matters for a probe with a `Probe.parallax`; the other functions take the surface's.
     ``bool environment_is_local()``: whether a probe captured it; ``vec3 environment_position()``: where in the world the probe
     did.
     ``int light_count()``, ``LightSample sample_light(int index, Surface surface)`` with ``direction`` (unit, to
@@ -8286,6 +8873,14 @@ class Stats:
         """
 
     @property
+    def bounce_changes(self) -> tuple[float, ...]:
+        """
+        tuple of float: how much each bounce after the first changed what mirrors show.
+
+        Entry i compares the picture of a probe with i + 2 bounces to that with i + 1: the root of the mean of the squared differences of red, green and blue, as the pictures hold them, in the directions of the texels of a cube of 32 texels an edge, over all probes that the call drew and of which it needed both pictures; nan if there is no such probe. Empty if no probe of more than one bounce was drawn.
+        """
+
+    @property
     def draw_calls(self) -> int:
         """
         int
@@ -8688,6 +9283,38 @@ class Frame:
         ndarray (H, W) float32: distance along the camera's axis, or a face's, world units; +inf background.
         """
 
+class _LaterCall:
+    """
+    A call of a renderer that waits to be drawn.
+    """
+
+    def __reduce__(self) -> tuple[object, ...]: ...
+    def draw(self: _LaterCall) -> bool:
+        """
+        Draw. Returns whether the pixels are there; if not, the next call can be drawn.
+        """
+
+    def join_line(self: _LaterCall) -> None:
+        """
+        Take a place in the line of the renderer's calls: in the order of drawing.
+        """
+
+    def leave_line(self: _LaterCall) -> None:
+        """
+        Leave it: the call will not be drawn. Nothing if it is being drawn.
+        """
+
+    def result(self: _LaterCall) -> object:
+        """
+        Wait for the pixels, and give the result.
+        """
+
+    @property
+    def notices(self) -> list[str]:
+        """
+        list of str: what the last of these two had to tell, also if it raised.
+        """
+
 class Renderer:
     """
     Draws scenes without a screen: frames, cubemaps and the probes that mirrors need.
@@ -8844,9 +9471,60 @@ class Renderer:
         ([1.0, 0.0, 0.0, 1.0], 1)
         """
 
+    def capture_async(
+        self: Renderer,
+        scene: Scene,
+        position: np.typing.ArrayLike = (0.0, 0.0, 0.0),
+        size: typing.SupportsIndex = 256,
+        *,
+        near: typing.SupportsFloat | typing.SupportsIndex = 0.05,
+        far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
+        exclude: collections.abc.Iterable[Node] = (),
+        outputs: collections.abc.Iterable[str] = (),
+        format: Format | None = "rgba32f",
+        samples: typing.SupportsIndex = 1,
+        eye: np.typing.ArrayLike | None = None,
+        depth_format: DepthFormat | None = "depth_component32f",
+        depth_order: DepthOrder = "nearest",
+        rotation: np.typing.ArrayLike | None = None,
+    ) -> cubecam._futures.PictureFuture[CubeMap]:
+        """
+        Have the surroundings of a point drawn by a thread of the renderer, and return at once.
+
+        The arguments are those of :meth:`capture`, and so are the bytes of the cubemap. :meth:`render_async` says in which
+        order calls are drawn, how many can wait, and which errors are raised when.
+
+        Parameters
+        ----------
+        scene, position, size
+            See :meth:`capture`.
+        near, far, exclude, outputs, format, samples, eye, depth_format, depth_order, rotation
+            See :meth:`capture`.
+
+        Returns
+        -------
+        PictureFuture of CubeMap
+
+        Raises
+        ------
+        ValueError, TypeError, ContextError
+            As :meth:`render_async` raises; also for an excluded node of another scene.
+
+        Examples
+        --------
+        >>> import asyncio
+        >>> import cubecam as cc
+        >>> async def captures(renderer, scene):
+        ...     return await asyncio.gather(*(renderer.capture_async(scene, (x, 0, 0), size=8) for x in range(4)))
+        >>> with cc.Renderer() as renderer:
+        ...     cubes = asyncio.run(captures(renderer, cc.Scene(background="teal")))
+        >>> len(cubes), cubes[0].faces.shape
+        (4, (6, 8, 8, 4))
+        """
+
     def close(self: Renderer) -> None:
         """
-        Free the OpenGL context and its memory. Calls after that raise ContextError; a second close() does nothing.
+        Free the OpenGL context and its memory. Calls after that raise ContextError; a second close() does nothing. Calls of :meth:`render_async` and :meth:`capture_async` that were made before are drawn first; leaving a ``with`` block by an exception cancels those that have not begun.
         """
 
     def read_probe(self: Renderer, probe: Probe) -> CubeMap:
@@ -8919,6 +9597,7 @@ class Renderer:
         encode: Encode | None = None,
         effects: collections.abc.Iterable[ImageEffect] = (),
         depth_format: DepthFormat | None = "depth_component32f",
+        screen_reflections: bool = False,
     ) -> Frame:
         """
         Draw a picture of a scene. The probes that its mirrors need are brought up to date first.
@@ -8958,6 +9637,12 @@ class Renderer:
             "depth_component16", "depth24_stencil8", "depth32f_stencil8", "stencil_index8" (no depth) or None (neither). Without
             a depth buffer no node hides another: nodes are painted one over the other, in order of ``render_order``, then id,
             and "stencil" is the only output.
+        screen_reflections : bool
+            True: what mirrors, glass and shiny surfaces reflect is looked up in the picture itself first, by its depths, and in
+            the environment or the probe where the picture does not show it. Default False. It sharpens what probes show near
+            their mirrors, and where a frame shows nothing, since it is hidden or out of view, nothing changes. Blended surfaces
+            are not found; surfaces with a `PlanarMirror`, captures, probes, render textures and what a pane of transmissive
+            material shows do without. It needs a colour and a depth buffer, and draws the nodes twice.
 
         Returns
         -------
@@ -8970,7 +9655,7 @@ class Renderer:
         ValueError
             For an unknown name, a size or sample count beyond the driver's limits, formats that the driver cannot draw into,
             outputs that ``depth_format`` does not allow, an exposure that is not from -64 to 64, tone mapping or effects with
-            ``format=None``, or a camera without a valid view.
+            ``format=None``, ``screen_reflections`` without a colour or a depth buffer, or a camera without a valid view.
         ContextError
             After :meth:`close`, or in a forked process.
 
@@ -8981,6 +9666,68 @@ class Renderer:
         ...     frame = renderer.render(cc.Scene(background=(2, 0, 0)), cc.PerspectiveCamera(), size=(1, 1), format="rgba16f")
         >>> frame.color.tolist()
         [[[2.0, 0.0, 0.0, 1.0]]]
+        """
+
+    def render_async(
+        self: Renderer,
+        scene: Scene,
+        camera: Camera | StereoCamera,
+        size: tuple[int, int],
+        *,
+        outputs: collections.abc.Iterable[str] = (),
+        format: Format | None = "rgba8",
+        samples: typing.SupportsIndex = 1,
+        exposure: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        tonemap: Tonemap | None = None,
+        encode: Encode | None = None,
+        effects: collections.abc.Iterable[ImageEffect] = (),
+        depth_format: DepthFormat | None = "depth_component32f",
+        screen_reflections: bool = False,
+    ) -> cubecam._futures.PictureFuture[Frame]:
+        """
+        Have a picture of a scene drawn by a thread of the renderer, and return at once.
+
+        The arguments are those of :meth:`render`, and so are the bytes of the picture. It shows the scene and the camera as
+        they are now; later changes do not count. The future can be awaited by asyncio, and has ``result()``, ``cancel()`` and
+        the other methods of `concurrent.futures.Future`.
+
+        All calls of a renderer are drawn in the order in which they were made, whatever their kind. 64 calls can wait; a
+        further call waits until there is room, and so does one whose result the memory cannot hold besides those that are not
+        done. At the end of the program calls that wait are cancelled: wait for their results, or use a ``with`` block.
+
+        Parameters
+        ----------
+        scene, camera, size
+            See :meth:`render`.
+        outputs, format, samples, exposure, tonemap, encode, effects, depth_format, screen_reflections
+            See :meth:`render`.
+
+        Returns
+        -------
+        PictureFuture of Frame
+
+        Raises
+        ------
+        ValueError, TypeError
+            At once for what the arguments say, as :meth:`render` raises; what drawing finds is raised by the future.
+        ContextError
+            At once after :meth:`close`, or in a forked process.
+
+        Warns
+        -----
+        RendererWarning
+            At the line of this call, before the future is done. If a filter makes an error of it, the future raises it.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene, camera = cc.Scene(background=(1, 0, 0)), cc.PerspectiveCamera()
+        >>> with cc.Renderer() as renderer:
+        ...     red = renderer.render_async(scene, camera, size=(1, 1))
+        ...     scene.background = (0, 0, 1)
+        ...     blue = renderer.render_async(scene, camera, size=(1, 1))
+        >>> red.result().color.tolist(), blue.result().color.tolist()
+        ([[[255, 0, 0, 255]]], [[[0, 0, 255, 255]]])
         """
 
     def shadow_map(self: Renderer, scene: Scene, light: Light) -> np.typing.NDArray[np.float32]:
@@ -9143,6 +9890,11 @@ def _read_radiance(
     The scanlines of a Radiance picture, (scanlines, length, 3) float32.
 
     ValueError names the scanline that is broken.
+    """
+
+def _read_through_buffers(always: bool) -> bool:
+    """
+    For tests: software drivers read pictures through buffers, as GPUs do; returns the value before.
     """
 
 def _restore_frame(state: tuple[object, ...]) -> Frame:

@@ -45,9 +45,9 @@ class PictureFuture(Future[T]):
     ``add_done_callback()``, `concurrent.futures.wait` and `concurrent.futures.as_completed` work, and it can be awaited
     in any running loop of asyncio. Programs do not make one.
 
-    ``cancel()`` succeeds as long as the call waits; a picture that is being drawn is finished. A Ctrl-C ends the wait in
-    ``result()``, and the call goes on. Callbacks are called by the thread that draws: what takes long there delays the
-    next picture. A call of the same renderer in a callback is drawn at once, before those that wait.
+    ``cancel()`` succeeds as long as the call waits; a picture that is being drawn is finished. A Ctrl-C ends the wait
+    in ``result()``, and the call goes on. Callbacks are called by the thread that draws: what takes long there delays
+    the next picture. A call of the same renderer in a callback is drawn at once, before those that wait.
 
     Examples
     --------

@@ -5,17 +5,17 @@ import concurrent.futures
 import contextlib
 import gc
 import threading
-import warnings
 import weakref
+from typing import Any
 
 import numpy as np
 import pytest
 
 import cubecam as cc
 from tests.compare import assert_identical
-from tests.gl.full_world import full_world
 from tests.helpers import DEVICE, run_python
 
+EYES = cc.StereoCamera(cc.PerspectiveCamera(), cc.PerspectiveCamera(), layout="side_by_side")
 OUTPUTS = ("distance", "z", "normal", "position", "id", "label", "depth")
 
 
@@ -97,7 +97,7 @@ def test_the_bytes_are_those_of_the_synchronous_calls(new_renderer, buffers):
     stereo = cc.StereoCamera.off_axis(
         cc.PerspectiveCamera(position=(2, 2, 2)), convergence=2.0, layout="side_by_side"
     )
-    captures = [
+    captures: list[dict[str, Any]] = [
         {"size": 24, "outputs": (*OUTPUTS, "heat"), "samples": 4},
         {"size": 16, "format": "rgb565", "depth_order": "farthest"},
         {
@@ -108,7 +108,7 @@ def test_the_bytes_are_those_of_the_synchronous_calls(new_renderer, buffers):
         },
     ]
     camera = cc.PerspectiveCamera(position=(2.5, 2, 2.2), target=(0, 0, 0))
-    frames = [
+    frames: list[tuple[Any, dict[str, Any]]] = [
         (camera, {"outputs": OUTPUTS, "tonemap": "aces", "effects": [effect], "samples": 4}),
         (camera, {"format": None, "outputs": ["id"]}),
         (stereo, {"format": "rgba32f", "outputs": ["distance"], "encode": "srgb"}),
@@ -122,29 +122,32 @@ def test_the_bytes_are_those_of_the_synchronous_calls(new_renderer, buffers):
     pictures = [renderer.render_async(scene, seen, (24, 20), **how) for seen, how in frames]
     for future, want in zip(cubes, want_cubes, strict=True):
         same_cube(future.result(), want)
-    for future, want in zip(pictures, want_frames, strict=True):
-        got = future.result()
-        assert (got.encoding, got.format) == (want.encoding, want.format)
-        assert list(got.outputs) == list(want.outputs)
-        for a, b in ((got.color, want.color), *zip(got.outputs.values(), want.outputs.values(), strict=True)):  # fmt: skip
+    for picture, wanted in zip(pictures, want_frames, strict=True):
+        got = picture.result()
+        assert (got.encoding, got.format) == (wanted.encoding, wanted.format)
+        assert list(got.outputs) == list(wanted.outputs)
+        both: list[tuple[Any, Any]] = [(got.color, wanted.color)]
+        both += zip(got.outputs.values(), wanted.outputs.values(), strict=True)
+        for a, b in both:
             assert (a is None) == (b is None)
             if a is not None:
                 assert_identical(a, b)
 
 
 def test_each_call_shows_the_scene_of_its_moment(renderer, buffers):
-    """Nodes, materials, meshes, cubemaps, cameras and scenes of render textures that change before anything is drawn."""
+    """Nodes, materials, meshes, cubemaps, cameras, scenes of render textures: all change before anything is drawn."""
     inner = cc.Scene(background=(1, 0, 0))
     screen = cc.RenderTexture(inner, cc.PerspectiveCamera(), size=(4, 4))
     sky = cc.CubeMap(np.full((6, 4, 4, 3), 0.25, np.float32))
     scene = cc.Scene(background=sky)
-    box = scene.add(cc.Mesh.box(1), cc.BasicMaterial(color=(1, 0.5, 0)), position=(2, 0, 0))
+    mesh, material = cc.Mesh.box(1), cc.BasicMaterial(color=(1, 0.5, 0))
+    box = scene.add(mesh, material, position=(2, 0, 0))
     scene.add(cc.Mesh.plane(9, 9), cc.BasicMaterial(map=screen), position=(0, -2, 0))
     camera = cc.PerspectiveCamera(position=(0, 3, 6), target=(0, 0, 0))
     edits = [
         lambda: setattr(box, "position", (0, 0, 2)),
-        lambda: setattr(box.material, "color", (0, 1, 1)),
-        lambda: box.mesh.update(positions=box.mesh.positions * np.float32(1.5)),
+        lambda: setattr(material, "color", (0, 1, 1)),
+        lambda: mesh.update(positions=mesh.positions * np.float32(1.5)),
         lambda: sky.set_face("-z", np.ones((4, 4, 3), np.float32)),
         lambda: setattr(inner, "background", (0, 1, 0)),
         lambda: setattr(camera, "position", (3, 3, 6)),
@@ -173,8 +176,8 @@ def test_each_call_shows_the_scene_of_its_moment(renderer, buffers):
             futures = edit_all()
         got = [(cube.result(), frame.result()) for cube, frame in futures]
         same_cube(got[-1][0], want()[0])
-        box.visible, box.position, box.material.color = True, (2, 0, 0), (1, 0.5, 0)
-        box.mesh.update(positions=box.mesh.positions / np.float32(1.5))
+        box.visible, box.position, material.color = True, (2, 0, 0), (1, 0.5, 0)
+        mesh.update(positions=mesh.positions / np.float32(1.5))
         sky.set_face("-z", np.full((4, 4, 3), 0.25, np.float32))
         inner.background, camera.position = (1, 0, 0), (0, 3, 6)
         wanted = [want()]
@@ -315,7 +318,7 @@ def test_wrong_arguments_are_refused_by_the_call(renderer, arguments, error, mat
         ({"size": (0, 4)}, "size: expected"),
         ({"format": None, "effects": [cc.ImageEffect("vec3 effect(vec2 uv) { return frame(uv).rgb; }")]}, "effects: "),
         ({"format": None, "tonemap": "aces"}, "tonemap"),
-        ({"camera": cc.StereoCamera(cc.PerspectiveCamera(), cc.PerspectiveCamera(), layout="side_by_side"), "size": (3, 4)}, "even width"),
+        ({"camera": EYES, "size": (3, 4)}, "even width"),
     ],
 )  # fmt: skip
 def test_wrong_frames_are_refused_by_the_call(renderer, arguments, match):
@@ -438,7 +441,7 @@ def test_a_renderer_lives_until_its_calls_are_done(new_renderer, buffers):
 
 
 def test_a_callback_may_use_the_renderer(renderer, buffers):
-    """It runs on the thread that draws: its calls are drawn at once, before those that wait, and close() waits for none."""
+    """It runs on the thread that draws: its calls are drawn at once, before those that wait; close() waits for none."""
     scene = scene_of((1, 0, 0), (0, 1, 0))
     want = renderer.capture(scene, size=9).faces
     got = []
@@ -540,7 +543,7 @@ ENDS = {
 
 @pytest.mark.parametrize(("first", "last"), ENDS.values(), ids=ENDS)
 def test_the_interpreter_ends_with_calls_that_wait(first, last):
-    """At once and in silence; whoever can still wait gets a picture or CancelledError, and calls in destructors work."""
+    """At once and in silence; who can still wait gets a picture or CancelledError, and calls in destructors work."""
     done = run_python(
         PRELUDE
         + f"""
@@ -589,7 +592,9 @@ with occupied(renderer):
     killer.join()
     assert not future.done()
     futures = [renderer.capture_async(scene, size=8) for _ in range(63)]
-    for wait in (lambda: renderer.capture_async(scene, size=8), lambda: renderer.capture(scene, size=8), renderer.close):
+    def more(): renderer.capture_async(scene, size=8)
+    def now(): renderer.capture(scene, size=8)
+    for wait in (more, now, renderer.close):
         killer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
         killer.start()
         try:
@@ -681,7 +686,7 @@ with warnings.catch_warnings():
 
 
 def test_pixels_that_are_lost_on_their_way_are_drawn_again():
-    """The context goes after a picture was drawn, and before its pixels have come; also where another call notices it."""
+    """The context goes after a picture is drawn, before its pixels have come; also where another call notices it."""
     run_python(
         LOST
         + """

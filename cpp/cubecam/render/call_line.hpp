@@ -27,10 +27,10 @@ public:
         CallLine& line_;
     };
 
-    /// The turn of a call on this thread, which is waited for. Three kinds of calls have no place of
-    /// their own: those of the thread that serves the line, since whatever it waited for would wait
-    /// for it; those of a signal handler that interrupts a wait, which have the place of that wait;
-    /// and those of a forked child, which draw nothing.
+    /// The turn of a call on this thread, which is waited for. Three kinds of calls have no place
+    /// of their own: those of the thread that serves the line, since whatever it waited for would
+    /// wait for it; those of a signal handler that interrupts a wait, which have the place of that
+    /// wait; and those of a forked child, which draw nothing.
     class Turn {
     public:
         explicit Turn(CallLine& line);

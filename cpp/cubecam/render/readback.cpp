@@ -330,8 +330,7 @@ std::size_t result_bytes(const TargetDescription& d) {
 Reading<Frame> start_frame(const gl::Context& context, Target& target, ResultPool& pool,
                            ReadRing& ring) {
     const TargetDescription& d = target.description();
-    auto reader =
-        std::make_unique<Reader>(context.gl(), target, pool, needed(context, ring));
+    auto reader = std::make_unique<Reader>(context.gl(), target, pool, needed(context, ring));
     Frame frame;
     frame.width = d.width;
     frame.height = d.height * d.layers();
@@ -344,12 +343,10 @@ Reading<Frame> start_frame(const gl::Context& context, Target& target, ResultPoo
 Reading<std::shared_ptr<CubeMap>> start_cube(const gl::Context& context, Target& target,
                                              ResultPool& pool, ReadRing& ring, Encoding encoding) {
     const TargetDescription& d = target.description();
-    auto reader =
-        std::make_unique<Reader>(context.gl(), target, pool, needed(context, ring));
+    auto reader = std::make_unique<Reader>(context.gl(), target, pool, needed(context, ring));
     Result color = reader->picture();
     OutputList outputs = reader->outputs();
-    std::unique_ptr<PixelsUnderWay> pixels =
-        begin(context, std::move(reader), "reading a cubemap");
+    std::unique_ptr<PixelsUnderWay> pixels = begin(context, std::move(reader), "reading a cubemap");
     return {std::make_shared<CubeMap>(d.width, 4, dtype_of(d.format), std::move(color), d.mipmaps,
                                       std::move(outputs), encoding),
             std::move(pixels)};

@@ -52,10 +52,11 @@ struct ShadowDistances {
 /// GPU.
 ///
 /// Any thread may call it; calls on one renderer run one after the other in the order in which they
-/// were made (`line`), several renderers run in parallel. Between calls its context is current on no thread. After close(), and in a process
-/// forked after EGL was opened, every call throws ContextError. A call polls for interrupts
-/// (core/interrupts.hpp); an interrupted picture counts as not drawn. Inside a poll, the same
-/// renderer draws nothing (Error), and close() takes effect when the call ends.
+/// were made (`line`), several renderers run in parallel. Between calls its context is current on
+/// no thread. After close(), and in a process forked after EGL was opened, every call throws
+/// ContextError. A call polls for interrupts (core/interrupts.hpp); an interrupted picture counts
+/// as not drawn. Inside a poll, the same renderer draws nothing (Error), and close() takes effect
+/// when the call ends.
 ///
 /// If the context is lost, since another library ended its display or the GPU was reset, the call
 /// makes a new one, adds a notice (core/notices.hpp) and is done again: everything on the GPU is
@@ -87,9 +88,9 @@ public:
         return capture(*scene.snapshot(), options);
     }
 
-    /// render() and capture() in two steps. The first draws, and the pixels begin to travel; `finish`
-    /// waits for them. Meanwhile the renderer draws other calls. With a software driver the pixels
-    /// are there after the first step.
+    /// render() and capture() in two steps. The first draws, and the pixels begin to travel;
+    /// `finish` waits for them. Meanwhile the renderer draws other calls. With a software driver
+    /// the pixels are there after the first step.
     Pending<Frame> begin_render(const SceneSnapshot& scene, const CameraValue& camera,
                                 const FrameOptions& options);
     Pending<Frame> begin_render(const SceneSnapshot& scene, const StereoValue& camera,
@@ -100,8 +101,8 @@ public:
     std::optional<Frame> finish(Pending<Frame> pending);
     std::optional<std::shared_ptr<CubeMap>> finish(Pending<std::shared_ptr<CubeMap>> pending);
 
-    /// The line in which all calls stand. A thread that draws calls of others takes a place for each
-    /// when the call is made.
+    /// The line in which all calls stand. A thread that draws calls of others takes a place for
+    /// each when the call is made.
     CallLine& line() { return line_; }
     /// @throws ContextError after close(), and in a forked child.
     void check_open() const;

@@ -69,10 +69,9 @@ public:
             free(gl);
             constexpr GLbitfield access =
                 GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-            gl::Buffer made =
-                gl::create_buffer(gl, bytes, nullptr, access | GL_CLIENT_STORAGE_BIT);
-            held_ = static_cast<const std::byte*>(gl.MapNamedBufferRange(
-                made.id(), 0, static_cast<GLsizeiptr>(bytes), access));
+            gl::Buffer made = gl::create_buffer(gl, bytes, nullptr, access | GL_CLIENT_STORAGE_BIT);
+            held_ = static_cast<const std::byte*>(
+                gl.MapNamedBufferRange(made.id(), 0, static_cast<GLsizeiptr>(bytes), access));
             gl::check_gl(gl, "reading a picture");
             if (held_ == nullptr) throw GlError("reading a picture: the driver maps no buffer");
             buffer_ = std::move(made);
