@@ -191,7 +191,7 @@ def of_the_stub():
     for node in ast.parse(STUB.read_text(encoding="utf-8")).body:
         if isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
             yield node.name, positional(node.args)
-        if not isinstance(node, ast.ClassDef):
+        if not isinstance(node, ast.ClassDef) or node.name.startswith("_"):
             continue
         for member in node.body:
             if not isinstance(member, ast.FunctionDef):
