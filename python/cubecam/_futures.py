@@ -180,7 +180,7 @@ class _Call:
         self.error = None
 
     def _fail(self, error: BaseException) -> None:
-        # A traceback would hold this frame, and with it the renderer.
+        # A traceback would close a circle: it holds a frame, which holds the future, which holds the error.
         self.error = self.error or error.with_traceback(None)
 
     def _warn(self) -> None:

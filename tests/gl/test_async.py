@@ -336,19 +336,28 @@ def test_what_drawing_finds_is_raised_by_the_future(renderer, buffers):
     bad.add(cc.Mesh.box(1), cc.ShaderMaterial("vec3 shade(Surface s) { return nothing; }"))
     with pytest.raises(cc.ShaderError) as now:
         renderer.capture(bad, size=2)
-    futures = [renderer.capture_async(scene, size=2) for scene in (good, bad, good, bad)]
+    order = []
+    with occupied(renderer):
+        futures = [renderer.capture_async(scene, size=2) for scene in (good, bad, good, bad)]
+        for future in futures:
+            future.add_done_callback(order.append)
+    concurrent.futures.wait(futures)
     assert futures[2].result().faces[0, 0, 0].tolist() == [0, 1, 0, 1]
     for future in futures[1::2]:
         with pytest.raises(cc.ShaderError) as later:
             future.result()
         assert str(later.value) == str(now.value)
         assert future.exception() is later.value
+    with renderer:  # then the last callback has run
+        assert isinstance(asyncio.run(failure(renderer, bad)), cc.ShaderError)
+    assert order == futures
 
-    async def wait():
-        return await renderer.capture_async(bad, size=2)
 
-    with pytest.raises(cc.ShaderError):
-        asyncio.run(wait())
+async def failure(renderer, scene):
+    try:
+        await renderer.capture_async(scene, size=2)
+    except cc.Error as error:
+        return error
 
 
 def test_64_calls_wait_and_the_next_one_waits_for_room(renderer):
@@ -425,19 +434,36 @@ def test_an_exception_in_a_with_block_cancels_what_waits(renderer):
     assert all(future.cancelled() for future in futures)
 
 
-def test_a_renderer_lives_until_its_calls_are_done(new_renderer, buffers):
-    """And no longer: the thread that drew them holds it no more."""
+def ended(reference):
+    """Whether an object ends within a few seconds."""
+    for _ in range(500):
+        gc.collect()
+        if reference() is None:
+            return True
+        threading.Event().wait(0.01)
+    return False
+
+
+def test_a_renderer_lives_until_its_calls_are_done(buffers):
+    """And no longer: neither its thread nor an error that a future keeps holds it."""
     made = cc.Renderer(device=DEVICE)
     gone = weakref.ref(made)
     futures = [made.capture_async(scene_of((1, 0, 0)), size=4 + step) for step in range(5)]
+    bad = cc.Scene()
+    bad.add(cc.Mesh.box(1), cc.ShaderMaterial("vec3 shade(Surface s) { return nothing; }"))
+    wrong = made.capture_async(bad, size=4)
     del made
     assert [future.result().size for future in futures] == [4, 5, 6, 7, 8]
-    for _ in range(500):
-        gc.collect()
-        if gone() is None:
-            break
-        threading.Event().wait(0.01)
-    assert gone() is None
+    assert isinstance(wrong.exception(), cc.ShaderError)
+    assert ended(gone)
+
+
+def test_a_result_ends_with_its_future(renderer, buffers):
+    """The thread that waits for the next call does not hold it."""
+    futures = [renderer.capture_async(cc.Scene(), size=4) for _ in range(3)]
+    gone = [weakref.ref(future.result()) for future in futures]
+    del futures
+    assert all(ended(reference) for reference in gone)
 
 
 def test_a_callback_may_use_the_renderer(renderer, buffers):
