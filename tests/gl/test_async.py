@@ -232,6 +232,16 @@ def test_calls_of_both_kinds_are_drawn_in_the_order_of_the_program(renderer, buf
     middle = [future.result().color[4, 4, :3].tolist() for future in futures]
     held = [[1, 0, 0]] + [[0, step / 8, 1] for step in range(6)]
     assert middle == [held[0]] + [color for color in held[1:-1] for _ in range(2)] + [held[-1]]
+    with occupied(renderer):
+        before = shown()
+        scene.background = (1, 1, 0)
+        thread = threading.Thread(target=renderer.update_probes, args=(scene,))
+        thread.start()
+        thread.join(0.3)  # long enough to draw, if it did not wait for its turn
+        assert thread.is_alive()
+    thread.join()
+    assert before.result().color[4, 4, :3].tolist() == held[-1]
+    assert shown().result().color[4, 4, :3].tolist() == [1, 1, 0]
 
 
 def test_asyncio_gathers_twenty(renderer, buffers):
