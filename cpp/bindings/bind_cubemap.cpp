@@ -273,6 +273,17 @@ CubePtr from_state(const py::tuple& closed) {
         state.size() == 5 ? copy_levels(state[4].cast<py::sequence>()) : nullptr);
 }
 
+/// A copy of one capture of a batch. NaN is kept.
+CubePtr cube_of_batch(const ArrayLike& faces, const py::dict& outputs,
+                      const EncodingNow& encoding) {
+    const PixelArray pixels = pixel_array(faces, "faces", "(6, N, N, C)", Values::any);
+    const int size = to_texels(pixels.shape(1), "faces");
+    return std::make_shared<CubeMap>(
+        size, static_cast<int>(pixels.shape(3)), pixels.dtype(),
+        std::make_shared<PixelBuffer>(copy_pixels(pixels.data(), pixels.bytes())), false,
+        copy_outputs(outputs, size), parse_encoding(encoding));
+}
+
 std::string output_doc(const OutputRow& row) {
     return "ndarray (6, N, N" + (row.channels > 1 ? ", " + std::to_string(row.channels) : "") +
            ") " + output_type_name(row.type) +
@@ -413,4 +424,6 @@ void bind_cubemap(py::module_& module) {
         .def("__repr__", &represent)
         .def(py::pickle(&get_state, &from_state))
         .def("__reduce__", &reduce);
+    module.def("_cube_of_batch", &cube_of_batch, py::arg("faces"), py::arg("outputs"),
+               py::arg("encoding"), "A cubemap from a part of a batch.");
 }

@@ -9,6 +9,7 @@
 #include "notices.hpp"
 #include "numbers.hpp"
 #include "objects.hpp"
+#include "renderer_arguments.hpp"
 #include "unlocked.hpp"
 #include "values.hpp"
 #include "vectors.hpp"
@@ -32,46 +33,18 @@
 namespace cubecam {
 namespace {
 
+using bindings::capture_options;
 using bindings::CaptureRequest;
+using bindings::FormatOrNone;
+using bindings::frame_options;
 using bindings::FrameRequest;
-using SeenBy = bindings::OneOf<Camera, StereoCamera>;
-using OutputNames = bindings::OneOf<py::typing::Iterable<py::str>>;
-using FormatOrNone = std::optional<bindings::FormatName>;
+using bindings::OutputNames;
+using bindings::SeenBy;
+using bindings::snapshot_of;
+using bindings::to_camera;
 using DeviceLike = bindings::OneOf<py::str, bindings::WholeNumber, gl::DeviceInfo, py::none>;
 using LayeredLike = bindings::OneOf<py::bool_, py::none>;
 using ProbesLike = bindings::OneOf<Probe, py::typing::Iterable<Probe>, py::none>;
-
-RequestedOutputs to_outputs(py::handle value) {
-    if (py::isinstance<py::str>(value)) return parse_outputs({value.cast<std::string>()});
-    std::vector<std::string> names;
-    if (!py::isinstance<py::iterable>(value)) {
-        throw TypeError("outputs: expected a sequence of names, got " + text_of(value));
-    }
-    for (const py::handle name : py::iter(value)) {
-        if (!py::isinstance<py::str>(name))
-            throw TypeError("outputs: expected names as str, got " + text_of(name));
-        names.push_back(name.cast<std::string>());
-    }
-    return parse_outputs(names);
-}
-
-std::vector<std::int32_t> to_ids(const Scene& scene, py::handle exclude) {
-    std::vector<std::int32_t> ids;
-    if (py::isinstance<Node>(exclude) || !py::isinstance<py::iterable>(exclude)) {
-        throw TypeError("exclude: expected a sequence of nodes, got " + text_of(exclude));
-    }
-    for (const py::handle item : py::iter(exclude)) {
-        if (!py::isinstance<Node>(item))
-            throw TypeError("exclude: expected nodes, got " + text_of(item));
-        const auto node = item.cast<std::shared_ptr<Node>>();
-        if (!scene.contains(*node)) {
-            throw std::invalid_argument("exclude: expected nodes of this scene, got " +
-                                        text_of(item));
-        }
-        ids.push_back(node->id());
-    }
-    return ids;
-}
 
 gl::DeviceChoice to_device(py::handle device) {
     if (device.is_none()) return std::string("auto");
@@ -98,24 +71,6 @@ std::shared_ptr<Renderer> make_renderer(const DeviceLike& device, const LayeredL
     return bindings::with_notices([&] { return std::make_shared<Renderer>(std::move(options)); });
 }
 
-std::variant<CameraValue, StereoValue> to_camera(const SeenBy& camera) {
-    if (py::isinstance<StereoCamera>(camera)) {
-        return camera.cast<std::shared_ptr<StereoCamera>>()->value();
-    }
-    return bindings::to_shared<Camera>(camera, "camera", "a Camera or a StereoCamera")
-        ->world_value();
-}
-
-/// The scene at the moment of the call. Where much must be calculated first, other threads and
-/// signal handlers run meanwhile, and the moment is after that.
-std::shared_ptr<const SceneSnapshot> snapshot_of(const Scene& scene,
-                                                 const Scene::Effects& effects = {}) {
-    return scene.snapshot(effects, [](const std::function<void()>& work) {
-        const bindings::Unlocked unlocked;
-        work();
-    });
-}
-
 FrameRequest frame_request(const Scene& scene, const SeenBy& camera, const bindings::SizeLike& size,
                            const OutputNames& outputs, const FormatOrNone& format,
                            const bindings::WholeNumber& samples, bindings::Real exposure,
@@ -124,17 +79,8 @@ FrameRequest frame_request(const Scene& scene, const SeenBy& camera, const bindi
                            const bindings::EffectsLike& effects,
                            const bindings::DepthFormatName& depth_format,
                            bindings::Flag screen_reflections) {
-    FrameOptions options;
-    std::tie(options.width, options.height) = to_size(size);
-    options.outputs = to_outputs(outputs);
-    options.color = format.has_value();
-    if (format) options.format = parse_format(*format);
-    options.samples = to_int(samples, "samples");
-    options.exposure = exposure;
-    if (tonemap) options.tonemap = parse_tonemap(*tonemap);
-    if (encode) options.encode = parse_encode(*encode);
-    options.depth_format = bindings::to_depth_format(depth_format);
-    options.screen_reflections = screen_reflections;
+    auto options = frame_options({size, outputs, format, samples, exposure, tonemap, encode,
+                                  depth_format, screen_reflections});
     auto seen = to_camera(camera);
     return {snapshot_of(scene, bindings::to_effects(effects)), std::move(seen), std::move(options)};
 }
@@ -148,22 +94,9 @@ CaptureRequest capture_request(const Scene& scene, const bindings::ArrayLike& po
                                const bindings::DepthFormatName& depth_format,
                                const bindings::Choice<depth_order_names>& depth_order,
                                const bindings::OrNone<bindings::ArrayLike>& rotation) {
-    CaptureOptions options;
+    CaptureOptions options = capture_options(scene, {size, near, far, exclude, outputs, format,
+                                                     samples, eye, depth_format, depth_order});
     options.position = to_vec3(position, "position");
-    options.size = to_int(size, "size");
-    options.near = near;
-    options.far = far;
-    options.exclude = to_ids(scene, exclude);
-    options.outputs = to_outputs(outputs);
-    if (!format) {
-        throw std::invalid_argument("format: expected a name, since a cubemap has faces, got None; "
-                                    "`rgba8` is the smallest");
-    }
-    options.format = parse_format(*format);
-    options.samples = to_int(samples, "samples");
-    options.depth_format = bindings::to_depth_format(depth_format);
-    options.depth_order = parse_depth_order(depth_order);
-    if (!eye.is_none()) options.eye = to_vec3(eye, "eye");
     if (!rotation.is_none()) {
         options.rotation = unit_rotation(bindings::to_rotation(rotation, "rotation"));
     }

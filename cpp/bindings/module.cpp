@@ -47,6 +47,7 @@ void bind_node(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_scene_queries(pybind11::module_& module);
 void bind_renderer(pybind11::module_& module);
+void bind_batches(pybind11::module_& module);
 #ifdef CUBECAM_PLANTED_FAULTS
 void bind_planted_faults(pybind11::module_& module);  // planted/faults.cpp
 #endif
@@ -138,6 +139,7 @@ PYBIND11_MODULE(_core, module) {
     bind_scene(module);
     bind_scene_queries(module);
     bind_renderer(module);
+    bind_batches(module);
     module.def(
         "_newest_revision", &newest_revision,
         "The newest revision of this process. While it stays the same, no object has changed.");

@@ -33,6 +33,9 @@ if TYPE_CHECKING:
     from . import doctor, explore, plot, truth
     from ._futures import PictureFuture
     from ._warnings import ConventionWarning, RendererWarning, SceneWarning
+    from .batches.captures import capture_scenes
+    from .batches.cubemaps import CubeMapBatch
+    from .batches.frames import FrameBatch
     from .data import sample_data
     from .io.cubemaps import load_cubemap, load_environment
     from .io.images import load_image, save_animation, save_image
@@ -47,6 +50,9 @@ else:
         {
             "_futures": ["PictureFuture"],
             "_warnings": ["ConventionWarning", "RendererWarning", "SceneWarning"],
+            "batches.captures": ["capture_scenes"],
+            "batches.cubemaps": ["CubeMapBatch"],
+            "batches.frames": ["FrameBatch"],
             "data": ["sample_data"],
             "io.cubemaps": ["load_cubemap", "load_environment"],
             "io.images": ["load_image", "save_animation", "save_image"],
@@ -74,12 +80,15 @@ else:
 __all__ = [
     "ClippingWarning",
     "ConventionWarning",
+    "CubeMapBatch",
+    "FrameBatch",
     "PictureFuture",
     "RendererWarning",
     "SceneWarning",
     "Viewer",
     "__version__",
     "brdf",
+    "capture_scenes",
     "doctor",
     "explore",
     "fresnel",

@@ -111,6 +111,9 @@ def attach() -> None:
     _attach(Scene, "to_mitsuba", LateMethod("io.mitsuba.save", "to_mitsuba"))
     _attach(Scene, "show", LateMethod("viewer.viewer", "show_scene"))
     _attach(CubeMap, "show", LateMethod("viewer.cube_view", "show_cube"))
+    for many in ("capture_many", "iter_captures"):
+        _attach(_core.Renderer, many, LateMethod("batches.captures", many))
+    _attach(_core.Renderer, "render_many", LateMethod("batches.renders", "render_many"))
     _attach(_core.ProbeGrid, "bake", LateMethod("_grid_bake", "bake"))
     for described in _DESCRIBED:
         _attach(described, "_repr_html_", LateMethod("pictures.objects", "repr_html"))

@@ -15,6 +15,8 @@ import numpy.typing
 
 import cubecam._futures
 import cubecam._shader_inputs
+import cubecam.batches.cubemaps
+import cubecam.batches.frames
 import cubecam.viewer.controls
 import cubecam.viewer.cube_view
 from cubecam.typing import (
@@ -9522,9 +9524,135 @@ class Renderer:
         (4, (6, 8, 8, 4))
         """
 
+    def capture_many(
+        self,
+        scene: Scene,
+        positions: np.typing.ArrayLike,
+        size: int = 256,
+        *,
+        outputs: collections.abc.Iterable[str] = tuple(),
+        rotations: np.typing.ArrayLike | None = None,
+        near: float = 0.05,
+        far: float = 1000.0,
+        exclude: collections.abc.Iterable[Node] = tuple(),
+        format: Format = "rgba32f",
+        samples: int = 1,
+        eye: np.typing.ArrayLike | None = None,
+        depth_format: DepthFormat = "depth_component32f",
+        depth_order: DepthOrder = "nearest",
+        progress: bool = True,
+    ) -> cubecam.batches.cubemaps.CubeMapBatch:
+        """
+        Capture a scene from many places.
+
+        Each cubemap has the same bytes as `Renderer.capture` gives for its place, but the driver is waited for once for
+        many of them, faces that show nothing are filled without it, and the results are one array. The scene is that of the
+        moment of the call; what is drawn for a batch is not kept for later calls.
+
+        Parameters
+        ----------
+        scene : Scene
+            What is captured.
+        positions : array_like (P, 3)
+            The places, world.
+        size : int
+            N, pixels along an edge of a face.
+        outputs : iterable of str
+            Further numbers for each texel, as in `Renderer.capture`.
+        rotations : array_like (P, 4), optional
+            Quaternions w, x, y, z that turn the axes of each cube against the world's, of any length but 0. None: no cube
+            is turned.
+        near, far : float
+            Clip distances, world units, 0 < near < far.
+        exclude : iterable of Node
+            Nodes that are left out with all nodes below them.
+        format, samples, eye, depth_format, depth_order
+            As in `Renderer.capture`, for all captures.
+        progress : bool
+            Whether a bar shows on the error stream how many captures are done, if it is a terminal and the work takes more
+            than half a second.
+
+        Returns
+        -------
+        CubeMapBatch
+            ``faces`` (P, 6, N, N, 4) and outputs, with the places. `Renderer.stats` has the numbers of the last part of it.
+
+        Raises
+        ------
+        TypeError, ValueError, ContextError
+            As `Renderer.capture` raises; ValueError, too, if the memory does not hold the results. `iter_captures` needs
+            less.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> scene = cc.Scene(background=(0, 0, 1))
+        >>> ball = scene.add(cc.Mesh.sphere(1), cc.BasicMaterial(color="red"))
+        >>> places = [(x, 0, 3) for x in range(10)]
+        >>> with cc.Renderer() as renderer:
+        ...     batch = renderer.capture_many(scene, places, 16, outputs=["distance"])
+        >>> batch.faces.shape, batch.distance.shape
+        ((10, 6, 16, 16, 4), (10, 6, 16, 16))
+        >>> bool(batch.distance[0].min().round(1) == 2)
+        True
+        """
+
     def close(self: Renderer) -> None:
         """
         Free the OpenGL context and its memory. Calls after that raise ContextError; a second close() does nothing. Calls of :meth:`render_async` and :meth:`capture_async` that were made before are drawn first; leaving a ``with`` block by an exception cancels those that have not begun.
+        """
+
+    def iter_captures(
+        self,
+        scene: Scene,
+        positions: np.typing.ArrayLike,
+        size: int = 256,
+        *,
+        outputs: collections.abc.Iterable[str] = tuple(),
+        rotations: np.typing.ArrayLike | None = None,
+        near: float = 0.05,
+        far: float = 1000.0,
+        exclude: collections.abc.Iterable[Node] = tuple(),
+        format: Format = "rgba32f",
+        samples: int = 1,
+        eye: np.typing.ArrayLike | None = None,
+        depth_format: DepthFormat = "depth_component32f",
+        depth_order: DepthOrder = "nearest",
+        progress: bool = True,
+    ) -> collections.abc.Iterator[CubeMap]:
+        """
+        Capture a scene from many places, and give one cubemap after the other.
+
+        It draws as `capture_many` does, some captures at a time, and never holds more than these: at most 64, or 8 MiB on a
+        software driver. The scene is that of the moment of the call, whatever is changed while the loop runs.
+
+        Parameters
+        ----------
+        scene, positions, size, outputs, rotations, near, far, exclude, format, samples, eye, depth_format, depth_order
+            As in `capture_many`.
+        progress : bool
+            As in `capture_many`.
+
+        Yields
+        ------
+        CubeMap
+            The captures, in the order of `positions`.
+
+        Raises
+        ------
+        TypeError, ValueError, ContextError
+            As `Renderer.capture` raises; wrong arguments at the call and not in the loop.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene(background=(0, 0.5, 1))
+        >>> with cc.Renderer() as renderer:
+        ...     for cube in renderer.iter_captures(scene, [(0, 0, 0), (0, 1, 0)], 16):
+        ...         print(cube.sh(0).round(2)[0, :3].tolist())
+        [0.0, 1.77, 3.54]
+        [0.0, 1.77, 3.54]
         """
 
     def read_probe(self: Renderer, probe: Probe) -> CubeMap:
@@ -9730,6 +9858,64 @@ class Renderer:
         ([[[255, 0, 0, 255]]], [[[0, 0, 255, 255]]])
         """
 
+    def render_many(
+        self,
+        scene: Scene,
+        cameras: collections.abc.Iterable[Camera | StereoCamera],
+        size: tuple[int, int],
+        *,
+        outputs: collections.abc.Iterable[str] = tuple(),
+        format: Format | None = "rgba8",
+        samples: int = 1,
+        exposure: float = 0.0,
+        tonemap: Tonemap | None = None,
+        encode: Encode | None = None,
+        effects: collections.abc.Iterable[ImageEffect] = tuple(),
+        depth_format: DepthFormat | None = "depth_component32f",
+        screen_reflections: bool = False,
+        progress: bool = True,
+    ) -> cubecam.batches.frames.FrameBatch:
+        """
+        Render a scene for many cameras, as `Renderer.render` does for one.
+
+        The scene and the cameras are those of the moment of the call.
+
+        Parameters
+        ----------
+        scene : Scene
+            What is rendered.
+        cameras : iterable of Camera or StereoCamera
+            A frame is rendered for each.
+        size : (int, int)
+            (width, height) of each frame, pixels.
+        outputs, format, samples, exposure, tonemap, encode, effects, depth_format, screen_reflections
+            As in `Renderer.render`, for all frames.
+        progress : bool
+            Whether a bar shows on the error stream how many frames are done, if it is a terminal and the work takes more
+            than half a second.
+
+        Returns
+        -------
+        FrameBatch
+            ``color`` (F, H, W, 4) and outputs; the same bytes as single calls give.
+
+        Raises
+        ------
+        TypeError, ValueError, ContextError
+            As `Renderer.render` raises; ValueError, too, if there is no camera, or if the memory does not hold the results.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> ball = scene.add(cc.Mesh.sphere(1), cc.BasicMaterial())
+        >>> cameras = [cc.PerspectiveCamera(position=(0, 0, z)) for z in (3, 4, 5)]
+        >>> with cc.Renderer() as renderer:
+        ...     batch = renderer.render_many(scene, cameras, (40, 30), outputs=["distance"])
+        >>> batch.color.shape, batch.distance.min(axis=(1, 2)).round(1).tolist()
+        ((3, 30, 40, 4), [2.0, 3.0, 4.0])
+        """
+
     def shadow_map(self: Renderer, scene: Scene, light: Light) -> np.typing.NDArray[np.float32]:
         """
         Draw the shadow map of a light, as distances, to look at. A map that is up to date is not drawn again.
@@ -9809,6 +9995,74 @@ class Renderer:
         Stats: what the last call drew.
         """
 
+class _CaptureBatch:
+    """
+    A scene at one moment, and the places of its captures.
+    """
+
+    def __init__(
+        self,
+        renderer: Renderer,
+        scene: Scene,
+        positions: np.typing.ArrayLike,
+        rotations: np.typing.ArrayLike | None,
+        size: typing.SupportsIndex,
+        *,
+        near: typing.SupportsFloat | typing.SupportsIndex,
+        far: typing.SupportsFloat | typing.SupportsIndex,
+        exclude: collections.abc.Iterable[Node],
+        outputs: collections.abc.Iterable[str],
+        format: Format | None,
+        samples: typing.SupportsIndex,
+        eye: np.typing.ArrayLike | None,
+        depth_format: DepthFormat | None,
+        depth_order: DepthOrder,
+    ) -> None: ...
+    def __len__(self) -> int: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
+    def draw(
+        self,
+        first: typing.SupportsInt | typing.SupportsIndex,
+        faces: np.ndarray,
+        outputs: list[object],
+    ) -> None: ...
+    @property
+    def dtype(self) -> np.dtype[np.uint8 | np.float16 | np.float32]: ...
+    @property
+    def encoding(self) -> Encoding: ...
+    @property
+    def most_cubes(self) -> int: ...
+    @property
+    def outputs(self) -> list[tuple[str, int, np.dtype[np.generic]]]: ...
+    @property
+    def size(self) -> int: ...
+
+class _RenderBatch:
+    """
+    A scene at one moment, and cameras.
+    """
+
+    def __init__(
+        self,
+        renderer: Renderer,
+        scene: Scene,
+        cameras: collections.abc.Iterable[Camera | StereoCamera],
+        size: tuple[int, int],
+        *,
+        outputs: collections.abc.Iterable[str],
+        format: Format | None,
+        samples: typing.SupportsIndex,
+        exposure: typing.SupportsFloat | typing.SupportsIndex,
+        tonemap: Tonemap | None,
+        encode: Encode | None,
+        effects: collections.abc.Iterable[ImageEffect],
+        depth_format: DepthFormat | None,
+        screen_reflections: bool,
+    ) -> None: ...
+    def __len__(self) -> int: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
+    def draw(self, number: typing.SupportsInt | typing.SupportsIndex) -> Frame: ...
+
 def _at_interrupt_check(function: object) -> None:
     """
     For tests: a function without arguments that is called at each look for signals in a long call of the main thread; None: no function.
@@ -9835,6 +10089,13 @@ def _check_memory(bytes: typing.SupportsFloat | typing.SupportsIndex, what: str)
 def _check_pickle(format: object) -> None:
     """
     For unpickling: raises TypeError for a format that is not this version's.
+    """
+
+def _cube_of_batch(
+    faces: np.typing.ArrayLike, outputs: dict[str, object], encoding: Encoding
+) -> CubeMap:
+    """
+    A cubemap from a part of a batch.
     """
 
 def _interrupt_pause(milliseconds: typing.SupportsInt | typing.SupportsIndex) -> int:

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam._progress import bar
 from cubecam.truth import drawing, sums, work, workers
-from cubecam.truth.progress import bar
 from tests.helpers import run_python
 
 RED = cc.Scene(background=(1, 0, 0))
@@ -103,7 +103,7 @@ def test_programs_without_an_error_stream(stream):
 
 def test_the_bar_without_a_terminal(monkeypatch):
     monkeypatch.setattr(sys, "stderr", None)
-    with bar(3, None) as advance:
+    with bar("rays", 3, None) as advance:
         assert advance() is None
 
 

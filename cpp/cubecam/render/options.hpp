@@ -61,6 +61,12 @@ struct CaptureOptions {
 /// Throws std::invalid_argument for a position that is not finite, or clip distances out of order.
 void check(const CaptureOptions& options);
 
+/// One capture of a batch; it takes the place of `position` and `rotation` of its options.
+struct CapturePlace {
+    glm::dvec3 position{0.0};
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< of the cube's axes
+};
+
 /// Both functions throw std::invalid_argument for options that do not fit together: outputs that
 /// need another depth format, tone mapping without a colour, a picture without any buffer.
 void check_buffers(const FrameOptions& options);

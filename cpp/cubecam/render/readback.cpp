@@ -12,6 +12,7 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -20,6 +21,8 @@ namespace cubecam {
 namespace {
 
 using Result = std::shared_ptr<PixelBuffer>;
+
+constexpr std::size_t filling_part = 4096;  // bytes
 
 GLenum gl_type(Format format) {
     switch (format) {
@@ -39,23 +42,26 @@ struct Given {
     std::size_t bytes;
 };
 
-Given given_output(const ShadedOutput& output) {
-    if (output.type == OutputType::int32) return {GL_RED_INTEGER, GL_INT, 4};
-    switch (output.channels) {
+Given given_output(int channels, OutputType type) {
+    if (type == OutputType::int32) return {GL_RED_INTEGER, GL_INT, 4};
+    switch (channels) {
         case 1: return {GL_RED, GL_FLOAT, 4};
         case 2: return {GL_RG, GL_FLOAT, 8};
         default: return {GL_RGBA, GL_FLOAT, 16};
     }
 }
 
-/// Reads all layers of a target. What `picture` and `outputs` return is filled later: by `start`,
-/// or, where pixels travel, by `arrive`. All copies are requested first, and the GPU is waited for
-/// once; after `start` the target may be drawn into again.
+/// Reads layers of a target. What `picture` and `output` are given has room for all layers of the
+/// target, and is filled later: by `start`, or, where pixels travel, by `arrive`; it must exist
+/// until then. All copies are requested first, and the GPU is waited for once; after `start` the
+/// target may be drawn into again.
 class Reader : public PixelsUnderWay {
 public:
     /// `ring` is null for a driver that needs none.
-    Reader(const GladGLContext& gl, Target& target, ResultPool& pool, ReadRing* ring)
-        : gl_(gl), target_(target), d_(target.description()), pool_(pool), ring_(ring) {
+    Reader(const GladGLContext& gl, Target& target, std::vector<int> layers, ResultPool& pool,
+           ReadRing* ring)
+        : gl_(gl), target_(target), d_(target.description()), layers_(std::move(layers)),
+          pool_(pool), ring_(ring) {
         gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     }
     ~Reader() override {
@@ -64,18 +70,29 @@ public:
     Reader(const Reader&) = delete;
     Reader& operator=(const Reader&) = delete;
 
-    Result picture() {
+    void picture(std::byte* to) {
         Layers& layers = d_.post_processed        ? target_.post_processed_pass()
                          : target_.multisampled() ? target_.resolved()
                                                   : target_.color_pass();
         const bool packed = d_.format == Format::rgb565;
         const Given given{packed ? GLenum{GL_RGB} : GLenum{GL_RGBA}, gl_type(d_.format),
                           texel_size(d_.format)};
-        if (!packed) return read(layers, 0, given, given.bytes, copy_row);
-        return read(layers, 0, given, 4, [](const std::byte* from, std::byte* to, std::size_t n) {
-            widen_565(reinterpret_cast<const std::uint16_t*>(from), n,
-                      reinterpret_cast<std::uint32_t*>(to));
-        });
+        if (!packed) return read(layers, 0, given, given.bytes, copy_row, to);
+        read(
+            layers, 0, given, 4,
+            [](const std::byte* from, std::byte* row, std::size_t n) {
+                widen_565(reinterpret_cast<const std::uint16_t*>(from), n,
+                          reinterpret_cast<std::uint32_t*>(row));
+            },
+            to);
+    }
+
+    void output(const OutputKind& kind, std::byte* to) {
+        switch (kind.source) {
+            case OutputSource::shader: return read_shaded(kind, to);
+            case OutputSource::depth: return read_depth(to);
+            case OutputSource::stencil: return read_stencil(to);
+        }
     }
 
     /// Returns whether all pixels are there; else they are under way.
@@ -95,55 +112,44 @@ public:
         for (const auto& turn : turns_) turn();
     }
 
-    OutputList outputs() {
-        OutputList list;
-        for (const ShadedOutput& output : d_.outputs.by_slot()) {
-            list.push_back(
-                {std::string(output.name), output.channels, output.type, read_shaded(output)});
-        }
-        for (std::size_t i = 0; i < output_table.size(); ++i) {
-            const OutputRow& row = output_table[i];
-            if (!d_.outputs.has(i) || row.source == OutputSource::shader) continue;
-            list.push_back({std::string(row.name), row.channels, row.type,
-                            row.source == OutputSource::depth ? read_depth() : read_stencil()});
-        }
-        return list;
-    }
-
 private:
-    Result read_shaded(const ShadedOutput& output) {
-        const Given given = given_output(output);
-        if (output.channels != 3) {
-            return read(target_.outputs(), output.slot, given, given.bytes, copy_row);
+    void read_shaded(const OutputKind& kind, std::byte* to) {
+        const Given given = given_output(kind.channels, kind.type);
+        if (kind.channels != 3) {
+            return read(target_.outputs(), kind.slot, given, given.bytes, copy_row, to);
         }
-        return read(target_.outputs(), output.slot, given, 12,
-                    [](const std::byte* from, std::byte* to, std::size_t n) {
-                        drop_fourth(reinterpret_cast<const float*>(from), n,
-                                    reinterpret_cast<float*>(to));
-                    });
+        read(
+            target_.outputs(), kind.slot, given, 12,
+            [](const std::byte* from, std::byte* row, std::size_t n) {
+                drop_fourth(reinterpret_cast<const float*>(from), n, reinterpret_cast<float*>(row));
+            },
+            to);
     }
 
     /// Reads window-space z; the stored depth is reversed.
-    Result read_depth() {
+    void read_depth(std::byte* to) {
         const int bits = fixed_depth_bits(d_.depth_format);
         const float clear = depth_state(d_.depth_order).clear;
         const Given given{GL_DEPTH_COMPONENT,
                           bits == 0 ? GLenum{GL_FLOAT} : GLenum{GL_UNSIGNED_INT}, 4};
-        Result depth = read(target_.outputs(), std::nullopt, given, 4, copy_row);
-        turns_.push_back([depth, bits, clear] {
-            const std::size_t count = depth->size() / 4;
-            if (bits == 0) {
-                turn_depth(reinterpret_cast<float*>(depth->data()), count, clear);
-            } else {
-                turn_fixed_depth(depth->data(), count, bits, clear);
-            }
-        });
-        return depth;
+        read(target_.outputs(), std::nullopt, given, 4, copy_row, to);
+        const std::size_t count =
+            static_cast<std::size_t>(d_.width) * static_cast<std::size_t>(d_.height);
+        for (const int number : layers_) {
+            std::byte* const layer = to + static_cast<std::size_t>(number) * count * 4;
+            turns_.push_back([layer, count, bits, clear] {
+                if (bits == 0) {
+                    turn_depth(reinterpret_cast<float*>(layer), count, clear);
+                } else {
+                    turn_fixed_depth(layer, count, bits, clear);
+                }
+            });
+        }
     }
 
-    Result read_stencil() {
-        return read(target_.outputs(), std::nullopt, {GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, 1}, 1,
-                    copy_row);
+    void read_stencil(std::byte* to) {
+        read(target_.outputs(), std::nullopt, {GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, 1}, 1, copy_row,
+             to);
     }
 
     using Row = void (*)(const std::byte* from, std::byte* to, std::size_t texels);
@@ -164,27 +170,24 @@ private:
     /// A call can be interrupted after so many bytes, which take a few milliseconds.
     static constexpr std::size_t most_of_part = std::size_t{16} << 20;
 
-    /// Requests one buffer of all layers. `slot` is none for the depth and stencil buffer. `row`
+    /// Requests one buffer of the layers. `slot` is none for the depth and stencil buffer. `row`
     /// converts the driver's texels into texels of `bytes`; null: they are the same.
-    Result read(Layers& layers, std::optional<std::size_t> slot, const Given& given,
-                std::size_t bytes, Row row) {
+    void read(Layers& layers, std::optional<std::size_t> slot, const Given& given,
+              std::size_t bytes, Row row, std::byte* to) {
         const auto rows = static_cast<std::size_t>(d_.height);
         const auto columns = static_cast<std::size_t>(d_.width);
-        const auto count = static_cast<std::size_t>(d_.layers());
         const std::size_t taken_row = columns * bytes;
         const std::size_t most =
             std::max<std::size_t>(most_of_part / (columns * given.bytes), std::size_t{1});
-        Result all = pool_.take(taken_row * rows * count);
-        for (std::size_t i = 0; i < count; ++i) {
-            std::byte* const layer = all->data() + i * taken_row * rows;
+        for (const int number : layers_) {
+            std::byte* const layer = to + static_cast<std::size_t>(number) * taken_row * rows;
             for (std::size_t first = 0; first < rows; first += most) {
                 const std::size_t some = std::min(most, rows - first);
                 const std::size_t above = d_.shape.has_faces() ? first : rows - first - some;
-                parts_.push_back({layers.one(static_cast<int>(i)), slot, given, bytes, row, first,
-                                  some, layer + above * taken_row});
+                parts_.push_back({layers.one(number), slot, given, bytes, row, first, some,
+                                  layer + above * taken_row});
             }
         }
-        return all;
     }
 
     std::size_t given_bytes(const Part& part) const {
@@ -279,6 +282,7 @@ private:
     const GladGLContext& gl_;
     Target& target_;
     const TargetDescription d_;
+    const std::vector<int> layers_;
     ResultPool& pool_;
     ReadRing* ring_;
     std::shared_ptr<ReadRing::Slot> slot_;  // of the parts that are under way; null: none are
@@ -302,54 +306,160 @@ std::unique_ptr<PixelsUnderWay> begin(const gl::Context& context, std::unique_pt
 
 }  // namespace
 
+std::vector<OutputKind> output_kinds(const Outputs& outputs) {
+    std::vector<OutputKind> kinds;
+    for (const ShadedOutput& output : outputs.by_slot()) {
+        kinds.push_back({std::string(output.name), output.channels, output.type,
+                         OutputSource::shader, output.slot});
+    }
+    for (std::size_t i = 0; i < output_table.size(); ++i) {
+        const OutputRow& row = output_table[i];
+        if (!outputs.has(i) || row.source == OutputSource::shader) continue;
+        kinds.push_back({std::string(row.name), row.channels, row.type, row.source, 0});
+    }
+    return kinds;
+}
+
 std::size_t result_bytes(const TargetDescription& d) {
     std::size_t texel = 0;
     std::size_t passing = 0;  // of one layer and one buffer at a time
-    const auto add = [&](std::size_t result, std::size_t through) {
-        texel += result;
-        passing = std::max(passing, through);
-    };
     if (d.color) {
-        const bool packed = d.format == Format::rgb565;
-        add(packed ? 4 : texel_size(d.format), texel_size(d.format));
+        texel = color_bytes(d.format);
+        passing = texel_size(d.format);
     }
-    for (const ShadedOutput& output : d.outputs.by_slot()) {
-        add(output_type_size(output.type) * static_cast<std::size_t>(output.channels),
-            given_output(output).bytes);
-    }
-    for (std::size_t i = 0; i < output_table.size(); ++i) {
-        if (!d.outputs.has(i) || output_table[i].source == OutputSource::shader) continue;
-        const std::size_t bytes = output_table[i].source == OutputSource::depth ? 4 : 1;
-        add(bytes, bytes);
+    for (const OutputKind& kind : output_kinds(d.outputs)) {
+        texel += kind.bytes();
+        const std::size_t given = kind.source == OutputSource::shader
+                                      ? given_output(kind.channels, kind.type).bytes
+                                      : kind.bytes();
+        passing = std::max(passing, given);
     }
     const std::size_t layer =
         static_cast<std::size_t>(d.width) * static_cast<std::size_t>(d.height);
     return layer * (texel * static_cast<std::size_t>(d.layers()) + passing);
 }
 
+namespace {
+
+/// Reads a target into memory of the pool. The colour is null if there is none.
+std::unique_ptr<PixelsUnderWay> start_all(const gl::Context& context, Target& target,
+                                          ResultPool& pool, ReadRing& ring, Result& color,
+                                          OutputList& outputs, const char* what) {
+    const TargetDescription& d = target.description();
+    const std::size_t texels = static_cast<std::size_t>(d.width) *
+                               static_cast<std::size_t>(d.height) *
+                               static_cast<std::size_t>(d.layers());
+    std::vector<int> layers(static_cast<std::size_t>(d.layers()));
+    std::iota(layers.begin(), layers.end(), 0);
+    auto reader = std::make_unique<Reader>(context.gl(), target, std::move(layers), pool,
+                                           needed(context, ring));
+    if (d.color) {
+        color = pool.take(texels * color_bytes(d.format));
+        reader->picture(color->data());
+    }
+    for (const OutputKind& kind : output_kinds(d.outputs)) {
+        outputs.push_back({kind.name, kind.channels, kind.type, pool.take(texels * kind.bytes())});
+        reader->output(kind, outputs.back().values->data());
+    }
+    return begin(context, std::move(reader), what);
+}
+
+}  // namespace
+
 Reading<Frame> start_frame(const gl::Context& context, Target& target, ResultPool& pool,
                            ReadRing& ring) {
     const TargetDescription& d = target.description();
-    auto reader = std::make_unique<Reader>(context.gl(), target, pool, needed(context, ring));
-    Frame frame;
+    Reading<Frame> reading;
+    Frame& frame = reading.result;
     frame.width = d.width;
     frame.height = d.height * d.layers();
     frame.format = d.format;
-    if (d.color) frame.color = reader->picture();
-    frame.outputs = reader->outputs();
-    return {std::move(frame), begin(context, std::move(reader), "reading a frame")};
+    reading.pixels =
+        start_all(context, target, pool, ring, frame.color, frame.outputs, "reading a frame");
+    return reading;
 }
 
 Reading<std::shared_ptr<CubeMap>> start_cube(const gl::Context& context, Target& target,
                                              ResultPool& pool, ReadRing& ring, Encoding encoding) {
     const TargetDescription& d = target.description();
-    auto reader = std::make_unique<Reader>(context.gl(), target, pool, needed(context, ring));
-    Result color = reader->picture();
-    OutputList outputs = reader->outputs();
-    std::unique_ptr<PixelsUnderWay> pixels = begin(context, std::move(reader), "reading a cubemap");
+    Result color;
+    OutputList outputs;
+    std::unique_ptr<PixelsUnderWay> pixels =
+        start_all(context, target, pool, ring, color, outputs, "reading a cubemap");
     return {std::make_shared<CubeMap>(d.width, 4, dtype_of(d.format), std::move(color), d.mipmaps,
                                       std::move(outputs), encoding),
             std::move(pixels)};
+}
+
+ClearTexels read_texels(const gl::Context& context, Target& target, ResultPool& pool,
+                        ReadRing& ring) {
+    OutputList outputs;
+    Result color;
+    const std::unique_ptr<PixelsUnderWay> pixels =
+        start_all(context, target, pool, ring, color, outputs, "reading a texel");
+    if (pixels != nullptr) pixels->arrive();
+    const TargetDescription& d = target.description();
+    const auto first = [](const PixelBuffer& values, std::size_t bytes) {
+        return std::vector<std::byte>(values.begin(),
+                                      values.begin() + static_cast<std::ptrdiff_t>(bytes));
+    };
+    ClearTexels texels;
+    if (color != nullptr) texels.color = first(*color, color_bytes(d.format));
+    const std::vector<OutputKind> kinds = output_kinds(d.outputs);
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+        texels.outputs.push_back(first(*outputs[i].values, kinds[i].bytes()));
+    }
+    return texels;
+}
+
+namespace {
+
+/// Writes a texel so many times.
+void fill(std::byte* to, std::size_t count, const std::vector<std::byte>& texel) {
+    std::memcpy(to, texel.data(), texel.size());
+    // The filled part doubles until it is as long as a page, which stays in the cache.
+    const std::size_t part = filling_part / texel.size() * texel.size();
+    const std::size_t bytes = count * texel.size();
+    std::size_t filled = texel.size();
+    while (filled < bytes) {
+        const std::size_t next = std::min(std::min(filled, part), bytes - filled);
+        std::memcpy(to + filled, to, next);
+        filled += next;
+    }
+}
+
+}  // namespace
+
+void read_layers(const gl::Context& context, Target& target, const std::vector<bool>& drawn,
+                 const ClearTexels& clear, ResultPool& pool, ReadRing& ring,
+                 const LayerMemory& to) {
+    const TargetDescription& d = target.description();
+    const std::size_t texels =
+        static_cast<std::size_t>(d.width) * static_cast<std::size_t>(d.height);
+    const std::vector<OutputKind> kinds = output_kinds(d.outputs);
+    std::vector<int> layers;
+    for (std::size_t layer = 0; layer < drawn.size(); ++layer) {
+        if (drawn[layer]) {
+            layers.push_back(static_cast<int>(layer));
+            continue;
+        }
+        poll_interrupts();
+        if (d.color) {
+            fill(to.color + layer * texels * clear.color.size(), texels, clear.color);
+        }
+        for (std::size_t i = 0; i < kinds.size(); ++i) {
+            const std::vector<std::byte>& texel = clear.outputs[i];
+            fill(to.outputs[i] + layer * texels * texel.size(), texels, texel);
+        }
+    }
+    if (layers.empty()) return;
+    auto reader =
+        std::make_unique<Reader>(context.gl(), target, layers, pool, needed(context, ring));
+    if (d.color) reader->picture(to.color);
+    for (std::size_t i = 0; i < kinds.size(); ++i) reader->output(kinds[i], to.outputs[i]);
+    const std::unique_ptr<PixelsUnderWay> pixels =
+        begin(context, std::move(reader), "reading a batch");
+    if (pixels != nullptr) pixels->arrive();
 }
 
 }  // namespace cubecam

@@ -3,7 +3,9 @@
 #include "cubecam/core/error.hpp"
 #include "cubecam/core/notices.hpp"
 #include "cubecam/gl/pace.hpp"
+#include "cubecam/render/graph/batch_picture.hpp"
 #include "cubecam/render/graph/frame_context.hpp"
+#include "cubecam/render/passes/clear.hpp"
 #include "cubecam/render/passes/raster_state.hpp"
 #include "cubecam/render/readback.hpp"
 #include "cubecam/render/requested_outputs.hpp"
@@ -59,6 +61,13 @@ Encoding kept_encoding(Target& target, Find&& find) {
     const Encoding found = find();
     if (call) call->encoding = found;
     return found;
+}
+
+/// Whether a capture shows a node.
+auto seen_by(const CaptureOptions& options) {
+    return [exclude = options.exclude](const NodeSnapshot& node) {
+        return node.in_captures && !is_excluded(node, exclude);
+    };
 }
 
 bool seen_by_all(const NodeSnapshot&) { return true; }
@@ -386,9 +395,7 @@ auto Renderer::capture_views(const SceneSnapshot& scene, const CaptureOptions& o
         Key wanted;
         wanted.add(true);  // a capture
         for (const std::int32_t id : options.exclude) wanted.add(id);
-        const auto seen = [&](const NodeSnapshot& node) {
-            return node.in_captures && !is_excluded(node, options.exclude);
-        };
+        const auto seen = seen_by(options);
         frame.draw(std::move(views), target, seen, std::move(wanted));
         stats_ = frame.stats;
         return read(
@@ -476,6 +483,87 @@ std::optional<Frame> Renderer::finish(Pending<Frame> pending) {
 std::optional<std::shared_ptr<CubeMap>>
 Renderer::finish(Pending<std::shared_ptr<CubeMap>> pending) {
     return arrived(std::move(pending));
+}
+
+namespace {
+
+/// The memory of a batch's target should stay in the caches of a CPU; a GPU needs work for all its
+/// cores.
+constexpr std::size_t software_batch_bytes = std::size_t{8} << 20;
+constexpr std::size_t gpu_batch_bytes = std::size_t{256} << 20;
+constexpr int most_cubes_of_batch = 64;
+
+TargetDescription batch_target(const gl::Context& context, const SceneSnapshot& scene,
+                               const CaptureOptions& options, int cubes) {
+    return describe_target(context, {.shape = TargetShape::cube_array(cubes),
+                                     .width = options.size,
+                                     .height = options.size,
+                                     .samples = options.samples,
+                                     .format = options.format,
+                                     .outputs = resolve_outputs(options.outputs, scene),
+                                     .depth_format = options.depth_format,
+                                     .depth_order = options.depth_order});
+}
+
+void add(Stats& sum, const Stats& more) {
+    sum.views_drawn += more.views_drawn;
+    sum.views_skipped += more.views_skipped;
+    sum.draw_calls += more.draw_calls;
+    sum.triangles += more.triangles;
+    sum.probes_updated += more.probes_updated;
+    sum.textures_updated += more.textures_updated;
+    sum.shadow_views_drawn += more.shadow_views_drawn;
+    sum.faces_filtered += more.faces_filtered;
+    sum.bounce_changes = more.bounce_changes;
+}
+
+}  // namespace
+
+Renderer::BatchShape Renderer::batch_shape(const SceneSnapshot& scene,
+                                           const CaptureOptions& options) {
+    check(options);
+    check_buffers(options);
+    return run([&](RendererState& gpu) {
+        const TargetDescription one = batch_target(gpu.context, scene, options, 1);
+        check_target_memory(gpu.context, one, result_bytes(one));
+        TargetDescription texel = one;
+        texel.width = texel.height = texel.samples = 1;
+        Target& cleared = gpu.targets.get(gpu.context, texel);
+        const auto* color = std::get_if<glm::vec4>(&scene.background);
+        clear_all(gpu.context.gl(), cleared, color != nullptr ? *color : glm::vec4(0.0F));
+        const std::size_t most = gpu.context.software() ? software_batch_bytes : gpu_batch_bytes;
+        const gl::Limits& limits = gpu.context.limits();
+        const int layers = std::min(limits.max_array_texture_layers, limits.max_framebuffer_layers);
+        const auto fitting =
+            static_cast<int>(std::min<std::size_t>(most / one.bytes(), most_cubes_of_batch));
+        return BatchShape{std::clamp(std::min(fitting, layers / 6), 1, most_cubes_of_batch),
+                          output_kinds(one.outputs), scene_encoding(scene, 0, seen_by(options)),
+                          read_texels(gpu.context, cleared, *gpu.results, gpu.read_ring)};
+    });
+}
+
+void Renderer::capture_batch(const SceneSnapshot& scene, const CaptureOptions& options,
+                             std::span<const CapturePlace> places, const ClearTexels& clear,
+                             const LayerMemory& to) {
+    run([&](RendererState& gpu) {
+        const TargetDescription description =
+            batch_target(gpu.context, scene, options, static_cast<int>(places.size()));
+        BatchTarget batch{gpu.targets.get(gpu.context, description),
+                          std::vector<bool>(static_cast<std::size_t>(description.layers()))};
+        const auto seen = seen_by(options);
+        Stats sum;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            if (i > 0) ++gpu.call;  // for probes that are drawn every few calls
+            FrameContext frame(gpu, scene);
+            frame.draw(cube_views(places[i].position, options.near, options.far, options.eye,
+                                  places[i].rotation),
+                       batch, i, seen);
+            add(sum, frame.stats);
+        }
+        stats_ = std::move(sum);
+        read_layers(gpu.context, batch.target, batch.drawn, clear, *gpu.results, gpu.read_ring, to);
+        return true;
+    });
 }
 
 void Renderer::update_probes(const SceneSnapshot& scene,

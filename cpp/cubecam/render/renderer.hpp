@@ -6,6 +6,7 @@
 #include "cubecam/render/frame.hpp"
 #include "cubecam/render/options.hpp"
 #include "cubecam/render/pending.hpp"
+#include "cubecam/render/readback.hpp"
 #include "cubecam/render/resources/stats.hpp"
 #include "cubecam/scene/camera.hpp"
 #include "cubecam/scene/probe.hpp"
@@ -106,6 +107,24 @@ public:
     CallLine& line() { return line_; }
     /// @throws ContextError after close(), and in a forked child.
     void check_open() const;
+
+    /// The number of cubes that capture_batch draws at once, and what it writes.
+    struct BatchShape {
+        int most_cubes = 1;
+        std::vector<OutputKind> outputs;
+        Encoding encoding = Encoding::linear;  ///< of the colours
+        ClearTexels clear;
+    };
+    /// Checks the options of a batch. @throws std::invalid_argument as capture() does.
+    BatchShape batch_shape(const SceneSnapshot& scene, const CaptureOptions& options);
+
+    /// Draws captures from several places, and writes them into `to` one after the other. Each is
+    /// the same bit for bit as capture() from there: the scene is drawn for one place after the
+    /// other, but the driver is waited for once. Its stats are sums.
+    /// At most BatchShape::most_cubes places; the position and rotation of `options` do not count.
+    void capture_batch(const SceneSnapshot& scene, const CaptureOptions& options,
+                       std::span<const CapturePlace> places, const ClearTexels& clear,
+                       const LayerMemory& to);
 
     /// Draws probes now, whatever their policy is: the given ones or, if `probes` is empty, all
     /// that the scene's visible nodes use.

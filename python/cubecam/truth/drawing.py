@@ -15,11 +15,11 @@ import numpy.typing as npt
 from .. import _core
 from .._calls import checked_call
 from .._checks import pair, real_number, whole_number
+from .._progress import bar
 from .arguments import Quality, matrix_of, nodes_of, of_class, output_names, quality_of, vector
 from .eyes import CameraEye, CubeEye, Eye
 from .outputs import outputs_of
 from .pictures import TruthCube, TruthFrame, cube_of, frame_of
-from .progress import bar
 from .scene.snapshot import read
 from .sums import Sums
 from .surfaces.trees import embree
@@ -292,7 +292,7 @@ def _fill(
     end = math.inf if quality.deadline is None else started + quality.deadline
     try:
         with (
-            bar(sum(map(len, parts)), quality.progress) as advance,
+            bar("exact rays", sum(map(len, parts)), quality.progress) as advance,
             Workers(job, processes, tracer) as workers,
         ):
             for part in parts:

@@ -160,8 +160,35 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
         ++count;
     }
     if (count == 0) return 0;
-    stats.views_drawn += static_cast<std::int64_t>(count);
+    // Until they are drawn, the contents of these layers are not valid.
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        if (!damaged[v].empty()) target.keys[v].reset();
+    }
+    draw_damaged(target, damaged, lookups);
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        if (damaged[v].empty()) continue;
+        target.keys[v] = std::move(keys[v]);
+        target.revisions[v] = ++gpu.views_drawn;
+    }
+    return budget ? last : count;
+}
 
+void DrawnPicture::draw_shared(Target& target, std::size_t first_layer,
+                               const std::vector<bool>& drawn) {
+    const Rect whole{0, 0, target.description().width, target.description().height};
+    std::vector<std::vector<Rect>> damaged(views.size());
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        if (drawn[v]) damaged[v] = {whole};
+    }
+    draw_damaged(target, damaged, look_up_all(), first_layer, true);
+}
+
+void DrawnPicture::draw_damaged(Target& target, const std::vector<std::vector<Rect>>& damaged,
+                                const std::vector<NodeTextures>& lookups,
+                                std::size_t first_layer, bool shared) {
+    const Rect whole{0, 0, target.description().width, target.description().height};
+    stats.views_drawn += std::count_if(damaged.begin(), damaged.end(),
+                                       [](const auto& rects) { return !rects.empty(); });
     // Where all bands have the same bits as the whole, so that large pictures can be interrupted.
     const double most_pixels = gpu.context.software() ? most_pixels_of_a_band : infinity;
     const double most_drawn = target.multisampled() ? infinity : most_pixels;
@@ -170,8 +197,6 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
         for (const Rect& rect : damaged[v]) {
             for (const Rect& band : bands(rect, most_drawn)) regions.push_back({v, band});
         }
-        // Until they are drawn, the contents of these layers are not valid.
-        if (!damaged[v].empty()) target.keys[v].reset();
     }
     const Environment sky = lookup.background();
     const auto* color = std::get_if<glm::vec4>(&scene.background);
@@ -188,7 +213,7 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
         regions.erase(elsewhere, regions.end());
         gpu.surface.draw({scene, views, plan, std::move(regions),
                           color != nullptr ? BackgroundSource(*color) : BackgroundSource(sky),
-                          lookups, shadows},
+                          lookups, shadows, first_layer, shared},
                          target, stats);
         regions = std::move(rest);
     }
@@ -200,19 +225,13 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
     for (std::size_t v = 0; v < views.size(); ++v) {
         if (damaged[v].empty()) continue;
         poll_interrupts();
-        if (target.multisampled()) resolve(target, static_cast<int>(v), bands(whole, most_pixels));
+        const auto layer = static_cast<int>(first_layer + v);
+        if (target.multisampled()) resolve(target, layer, bands(whole, most_pixels));
         if (target.description().post_processed) {
-            gpu.post_process.draw(post_process, textures, target, static_cast<int>(v), gpu.context,
-                                  stats);
+            gpu.post_process.draw(post_process, textures, target, layer, gpu.context, stats);
         }
     }
     gl::check_gl(gpu.context.gl(), "finishing a picture");
-    for (std::size_t v = 0; v < views.size(); ++v) {
-        if (damaged[v].empty()) continue;
-        target.keys[v] = std::move(keys[v]);
-        target.revisions[v] = ++gpu.views_drawn;
-    }
-    return budget ? last : count;
 }
 
 void DrawnPicture::resolve(Target& target, int layer, const std::vector<Rect>& rects) {

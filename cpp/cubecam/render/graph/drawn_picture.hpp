@@ -27,6 +27,10 @@ struct DrawnPicture {
     const PostProcess& post_process;
     Stats& stats;
 
+    /// Draws some views whole into a target that other pictures share (SurfaceInput): view i goes
+    /// to layer first_layer + i. The target keeps no keys of them.
+    void draw_shared(Target& target, std::size_t first_layer, const std::vector<bool>& drawn);
+
     /// Draws the views whose keys differ from those in the target, at most as many as the budget
     /// allows. Returns how many it drew; with a budget, how many it examined up to the last one
     /// that it drew.
@@ -36,6 +40,10 @@ private:
     std::vector<NodeTextures> look_up_all();
     std::vector<PictureKey> keys_of(const std::vector<NodeTextures>& lookups,
                                     const Outputs& outputs);
+    /// Draws the rectangles of each view; view i goes to layer first_layer + i.
+    void draw_damaged(Target& target, const std::vector<std::vector<Rect>>& damaged,
+                      const std::vector<NodeTextures>& lookups, std::size_t first_layer = 0,
+                      bool shared = false);
     void resolve(Target& target, int layer, const std::vector<Rect>& rects);
 };
 

@@ -1,5 +1,6 @@
 #include "cubecam/render/graph/frame_context.hpp"
 
+#include "cubecam/render/graph/batch_picture.hpp"
 #include "cubecam/render/graph/behind_picture.hpp"
 #include "cubecam/render/graph/frame_picture.hpp"
 #include "cubecam/render/graph/picture_kind.hpp"
@@ -77,6 +78,13 @@ void FrameContext::draw(std::vector<View> views, Target& target,
     if (stats.views_drawn == 0 && stats.shadow_views_drawn == 0 && counts_no_calls()) {
         target.unchanged = {scenes.revision, gpu.contents, std::move(request), stats.views_skipped};
     }
+}
+
+void FrameContext::draw(std::vector<View> views, BatchTarget& batch, std::size_t cube,
+                        std::function<bool(const NodeSnapshot&)> wanted) {
+    pictures.add(frame_id(), std::make_unique<BatchPicture>(*this, std::move(views), batch, cube,
+                                                            std::move(wanted)));
+    update({frame_id()});
 }
 
 void FrameContext::update_probes(const std::vector<std::size_t>& probes) {

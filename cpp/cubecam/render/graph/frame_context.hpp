@@ -16,6 +16,7 @@
 
 namespace cubecam {
 
+struct BatchTarget;
 class ProbePicture;
 class ScenePicture;
 class TexturePicture;
@@ -39,6 +40,10 @@ public:
     void draw(std::vector<View> views, Target& target,
               std::function<bool(const NodeSnapshot&)> wanted, Key wanted_key,
               PostProcess post_process = {}, bool screen_reflections = false);
+
+    /// Draws a capture of a batch into the layers of its cube.
+    void draw(std::vector<View> views, BatchTarget& batch, std::size_t cube,
+              std::function<bool(const NodeSnapshot&)> wanted);
 
     /// Draws these probes of the first scene, whether they are due or not, after the pictures that
     /// they depend on.

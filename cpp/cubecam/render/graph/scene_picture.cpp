@@ -134,14 +134,28 @@ Dependencies ScenePicture::plan(std::vector<View> views, const TargetDescription
     return shown;
 }
 
-std::size_t ScenePicture::draw_changed(Target& target, const PostProcess& post_process,
-                                       std::optional<Budget> budget) {
+template <class Draw>
+auto ScenePicture::with_picture(const PostProcess& post_process, const Draw& draw) {
     TextureLookup lookup(context_, id_, number_);
     const std::vector<ShadowUse> shadows =
         shows_shadows_ ? context_.shadows(number_) : std::vector<ShadowUse>();
     DrawnPicture picture{context_.gpu, scene_,  views_,       plan_,
                          lookup,       shadows, post_process, context_.stats};
-    return picture.draw_changed(target, budget);
+    return draw(picture);
+}
+
+std::size_t ScenePicture::draw_changed(Target& target, const PostProcess& post_process,
+                                       std::optional<Budget> budget) {
+    return with_picture(post_process, [&](DrawnPicture& picture) {
+        return picture.draw_changed(target, budget);
+    });
+}
+
+void ScenePicture::draw_shared(Target& target, std::size_t first_layer,
+                               const std::vector<bool>& drawn) {
+    with_picture({}, [&](DrawnPicture& picture) {
+        picture.draw_shared(target, first_layer, drawn);
+    });
 }
 
 bool ScenePicture::draw_kept(std::unique_ptr<Target>& target, const std::function<void()>& forget) {

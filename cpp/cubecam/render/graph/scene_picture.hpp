@@ -46,6 +46,7 @@ public:
     bool reflects_by_level() const { return reflects_by_level_; }
 
     const std::vector<View>& views() const { return views_; }
+    const DrawPlan& planned() const { return plan_; }
     std::size_t scene_number() const { return number_; }
     /// What the transmissive surfaces of this picture show; empty if it has none.
     BoundTexture behind();
@@ -66,6 +67,9 @@ protected:
     std::size_t draw_changed(Target& target, const PostProcess& post_process = {},
                              std::optional<Budget> budget = std::nullopt);
 
+    /// Calls DrawnPicture::draw_shared.
+    void draw_shared(Target& target, std::size_t first_layer, const std::vector<bool>& drawn);
+
     /// The same for a target that another picture keeps, made anew if its description changed; then
     /// makes its mipmaps. `forget` frees what is kept: before a new target, and if drawing fails.
     /// Returns whether anything was drawn.
@@ -81,6 +85,9 @@ protected:
     const SceneSnapshot& scene_;
 
 private:
+    /// Calls `draw` with a DrawnPicture of the planned views.
+    template <class Draw>
+    auto with_picture(const PostProcess& post_process, const Draw& draw);
     /// Notes that a planned node shows its planar mirror. `size` is that of the picture in pixels.
     void add_mirror(const PlannedNode& planned, const std::vector<Rect>& windows,
                     const glm::ivec2& size);

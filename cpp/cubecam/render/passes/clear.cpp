@@ -47,6 +47,18 @@ void clear_bound(const GladGLContext& gl, const Target& target, const ClearValue
     }
 }
 
+void clear_all(const GladGLContext& gl, Target& target, const glm::vec4& color) {
+    const TargetDescription& description = target.description();
+    const bool shaded = description.outputs.shaded();
+    gl.Enable(GL_SCISSOR_TEST);
+    gl.Scissor(0, 0, description.width, description.height);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.color_pass().all());
+    clear_bound(gl, target, {color, description.color, shaded && !target.multisampled()});
+    if (!description.outputs.any() || !target.multisampled()) return;
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.output_pass().all());
+    clear_bound(gl, target, {color, false, shaded});
+}
+
 void clear_layer(const GladGLContext& gl, const Target& target, int layer, const Rect& rect,
                  const ClearValues& values) {
     const auto clear = [&](const gl::Texture& texture, GLenum format, GLenum type,

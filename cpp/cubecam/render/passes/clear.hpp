@@ -25,4 +25,7 @@ void clear_bound(const GladGLContext& gl, const Target& target, const ClearValue
 void clear_layer(const GladGLContext& gl, const Target& target, int layer, const Rect& rect,
                  const ClearValues& values);
 
+/// Clears all layers of a target, for pictures that share it.
+void clear_all(const GladGLContext& gl, Target& target, const glm::vec4& color);
+
 }  // namespace cubecam

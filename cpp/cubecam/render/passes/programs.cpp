@@ -246,7 +246,7 @@ void Programs::check_textures(const SurfaceVariant& variant, const MaterialTrait
 
 gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
                                             const MaterialTraits& material) const {
-    gl::ShaderOptions options = variant.instanced ? gl::ShaderOptions() : layer_options();
+    gl::ShaderOptions options = layer_options();
     const auto define = [&options](bool wanted, const char* name) {
         if (wanted) options.defines.emplace_back(name, "1");
     };

@@ -119,7 +119,8 @@ SurfaceCallBuilder::SurfaceCallBuilder(const SurfaceInput& input, const SurfaceI
     for (const Region& region : input.regions) {
         const View& view = input.views[region.view];
         const glm::dmat4 from_origin = glm::translate(view.view_projection, origin);
-        views_.push_back(make_view_record(view, reverse_depth(from_origin), origin, region.view));
+        views_.push_back(
+            make_view_record(view, reverse_depth(from_origin), origin, input.layer(region)));
     }
 }
 
@@ -194,10 +195,11 @@ void SurfaceCallBuilder::add_sky(std::size_t first_region, std::size_t count, Su
         to.sky_environment = append(&block, sizeof(block));
     }
     for (std::size_t r = first_region; r < first_region + count; ++r) {
-        const std::size_t layer = input_.regions[r].view;
-        const View& view = input_.views[layer];
+        const Region& region = input_.regions[r];
+        const View& view = input_.views[region.view];
         view_records_.push_back(
-            make_view_record(view, sky_rays(view, size_.x, size_.y), input_.origin(), layer));
+            make_view_record(view, sky_rays(view, size_.x, size_.y), input_.origin(),
+                             input_.layer(region)));
     }
 }
 

@@ -29,7 +29,7 @@ struct Region {
 /// The pictures that SurfacePass draws in one call.
 struct SurfaceInput {
     const SceneSnapshot& scene;
-    std::span<const View> views;  ///< view i goes to layer i
+    std::span<const View> views;  ///< view i goes to layer first_layer + i
     const DrawPlan& plan;
     /// The parts to draw, ascending by view; all their views have the same position. All other
     /// pixels stay as they are.
@@ -39,6 +39,12 @@ struct SurfaceInput {
     /// The shadow maps of the lights that have one, in the scene's order; empty if no node of the
     /// plan receives shadows.
     std::span<const ShadowUse> shadows;
+    std::size_t first_layer = 0;
+    /// The target was cleared, and other pictures are drawn into its other layers: the framebuffer
+    /// of all layers stays bound, if shaders can choose a layer.
+    bool shared_target = false;
+
+    std::size_t layer(const Region& region) const { return first_layer + region.view; }
 
     /// The position of the views, which is the origin of the shaders' positions: far from the
     /// world's origin a float would be too coarse for near objects.

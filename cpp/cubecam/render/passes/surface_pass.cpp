@@ -137,16 +137,23 @@ void SurfacePass::draw_layers(const SurfaceInput& input, std::span<const Surface
     const auto* plain = std::get_if<glm::vec4>(&input.background);
     const ClearValues values{plain != nullptr ? *plain : glm::vec4(0.0F), color, outputs};
     const bool by_texture = description.shape.has_faces() && !(color && target.multisampled());
-    if (by_texture) {
+    if (by_texture && !input.shared_target) {
         for (const Region& region : input.regions) {
             poll_interrupts();
-            clear_layer(*gl_, target, static_cast<int>(region.view), region.rect, values);
+            clear_layer(*gl_, target, static_cast<int>(input.layer(region)), region.rect, values);
         }
     }
+    const bool cleared = by_texture || input.shared_target;
+    // llvmpipe keeps the triangles of a framebuffer until it is left: those of one layer stay in the
+    // caches, those of a batch do not (docs/adr/0035).
+    const bool routed = input.shared_target && layering_ != Layering::never &&
+                        (layering_ == Layering::always || !context_->software());
     const auto bind = [&](const Region& region) {
-        gl_->BindFramebuffer(GL_FRAMEBUFFER, layers.one(static_cast<int>(region.view)));
+        gl_->BindFramebuffer(GL_FRAMEBUFFER,
+                             routed ? layers.all()
+                                    : layers.one(static_cast<int>(input.layer(region))));
         set_scissor(region.rect);
-        if (!by_texture) clear_bound(*gl_, target, values);
+        if (!cleared) clear_bound(*gl_, target, values);
     };
     // Transparent nodes write no shaded outputs, but they may change the depth and stencil buffers,
     // which other outputs read.
@@ -158,7 +165,7 @@ void SurfacePass::draw_layers(const SurfaceInput& input, std::span<const Surface
     const double cost = description.samples;
     const bool layered = calls.size() < input.regions.size();
     pass_.clear();
-    pass_.add_target(description, color, outputs, layered);
+    pass_.add_target(description, color, outputs, layered || routed);
     pass_.add(clipped_);
     if (!layered) {
         for (std::size_t r = 0; r < input.regions.size(); ++r) {
@@ -169,13 +176,13 @@ void SurfacePass::draw_layers(const SurfaceInput& input, std::span<const Surface
         }
         return;
     }
-    const bool all = input.regions.size() == input.views.size();
-    if (!all && !by_texture) {
+    const bool all = input.regions.size() == static_cast<std::size_t>(description.layers());
+    if (!all && !cleared) {
         for (const Region& region : input.regions) bind(region);
     }
     gl_->BindFramebuffer(GL_FRAMEBUFFER, layers.all());
     set_scissor({0, 0, description.width, description.height});
-    if (all && !by_texture) clear_bound(*gl_, target, values);
+    if (all && !cleared) clear_bound(*gl_, target, values);
     look_through(input.regions.front());
     draw_all(input, calls.front(), writes, stats);
     for (const Region& region : input.regions) {

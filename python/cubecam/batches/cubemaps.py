@@ -1,0 +1,227 @@
+"""Cubemaps from many places, as one array."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, overload
+
+import numpy as np
+import numpy.typing as npt
+
+from .._calls import checked_call
+from .._checks import one_of, text_of
+from .._core import CubeMap, _cube_of_batch, _to_array
+from ..typing import Encoding
+from ._outputs import Output, OutputArrays
+
+if TYPE_CHECKING:
+    import xarray
+
+    from ..typing import Pixels
+
+__all__ = ["CubeMapBatch"]
+
+
+class CubeMapBatch:
+    """Cubemaps of one size and type, as one array: what `Renderer.capture_many` and `capture_scenes` return.
+
+    ``len(batch)`` is P, the number of cubemaps; ``batch[i]`` is one as a `CubeMap`, ``batch[2:5]`` a batch of some, and
+    a loop gives one after the other.
+
+    Parameters
+    ----------
+    faces : ndarray (P, 6, N, N, C) uint8, float16 or float32
+        Faces of all cubemaps in "gl" layout (docs/conventions.md). The batch keeps the array, not a copy.
+    outputs : mapping of str to ndarray (P, 6, N, N) or (P, 6, N, N, channels), optional
+        Further numbers for each texel, by name, as captures have them.
+    positions : array_like (P, 3), optional
+        The places of the captures, world.
+    rotations : array_like (P, 4), optional
+        Quaternions w, x, y, z that turned the axes of the cubes against the world's. None: they were not turned.
+    encoding : str
+        "linear" or "srgb", what the numbers of `faces` are.
+
+    Attributes
+    ----------
+    faces : ndarray (P, 6, N, N, C)
+        Faces of all cubemaps, writable.
+    outputs : dict of str to ndarray
+        The outputs, writable; each is a property, too: ``batch.distance``.
+    positions : ndarray (P, 3) float64 or None
+        The places of the captures, world.
+    rotations : ndarray (P, 4) float64 or None
+        How the cubes were turned.
+
+    Raises
+    ------
+    TypeError
+        For arrays of other types.
+    ValueError
+        For arrays whose shapes do not fit together, or an encoding that does not exist.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import cubecam as cc
+    >>> batch = cc.CubeMapBatch(np.zeros((10, 6, 4, 4, 3), np.float32))
+    >>> batch
+    CubeMapBatch(10, size=4, channels=3, dtype=float32, encoding='linear')
+    >>> batch[0]
+    CubeMap(size=4, channels=3, dtype=float32, mipmaps=False, encoding='linear')
+    >>> len(batch[::2])
+    5
+    """
+
+    distance = Output("(P, 6, N, N) float32", "length of the ray, world units; +inf background")
+    z = Output("(P, 6, N, N) float32", "distance along the face's axis; +inf background")
+    normal = Output("(P, 6, N, N, 3) float32", "world shading normal; 0 background")
+    position = Output("(P, 6, N, N, 3) float32", "world position; NaN background")
+    id = Output("(P, 6, N, N) int32", "``Node.id`` of the visible node; 0 background")
+    label = Output("(P, 6, N, N) int32", "``Node.label`` of the visible node; 0 background")
+    depth = Output("(P, 6, N, N) float32", "window-space z, 0 near, 1 far and background")
+    stencil = Output("(P, 6, N, N) uint8", "the stencil buffer; 0 background")
+
+    @checked_call
+    def __init__(
+        self,
+        faces: npt.ArrayLike,
+        *,
+        outputs: Mapping[str, npt.ArrayLike] | None = None,
+        positions: npt.ArrayLike | None = None,
+        rotations: npt.ArrayLike | None = None,
+        encoding: Encoding = "linear",
+    ) -> None:
+        self.faces: Pixels = _array(faces, "faces")
+        if self.faces.ndim != 5 or self.faces.shape[1] != 6 or self.faces.shape[2] < 1:
+            raise ValueError(f"faces: expected shape (P, 6, N, N, C), got {self.faces.shape}")
+        if self.faces.shape[2] != self.faces.shape[3] or self.faces.shape[4] not in (1, 3, 4):
+            raise ValueError(
+                f"faces: expected shape (P, 6, N, N, C), C 1, 3 or 4, got {self.faces.shape}"
+            )
+        if self.faces.dtype not in (np.uint8, np.float16, np.float32):
+            raise TypeError(
+                f"faces: expected uint8, float16 or float32, got dtype {self.faces.dtype}"
+            )
+        self.outputs: OutputArrays = {}
+        for name, values in (outputs or {}).items():
+            array = _array(values, name)
+            if array.shape[:4] != self.faces.shape[:4] or array.ndim > 5:
+                expected = ", ".join(map(str, self.faces.shape[:4]))
+                raise ValueError(
+                    f"{name}: expected shape ({expected}) or ({expected}, channels), got {array.shape}"
+                )
+            self.outputs[name] = array
+        self.positions = _places(positions, "positions", len(self), 3)
+        self.rotations = _places(rotations, "rotations", len(self), 4)
+        self.encoding: Encoding = one_of(encoding, "encoding", ("linear", "srgb"))
+
+    @property
+    def size(self) -> int:
+        """int: N, texels along an edge of a face."""
+        return int(self.faces.shape[2])
+
+    @property
+    def channels(self) -> int:
+        """int: C, 1, 3 or 4."""
+        return int(self.faces.shape[4])
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """dtype: of `faces`, uint8, float16 or float32."""
+        return self.faces.dtype
+
+    def __len__(self) -> int:
+        return int(self.faces.shape[0])
+
+    @overload
+    def __getitem__(self, place: int) -> CubeMap: ...
+    @overload
+    def __getitem__(
+        self, place: slice | npt.NDArray[np.integer | np.bool_] | list[int]
+    ) -> CubeMapBatch: ...
+    def __getitem__(self, place: Any) -> CubeMap | CubeMapBatch:
+        """Give one cubemap, a copy, or several: a slice is a view of the same memory, as with numpy."""
+        if isinstance(place, (slice, list, np.ndarray)):
+            return self._some(place)
+        try:
+            number = operator.index(place)
+        except TypeError:
+            raise TypeError(
+                f"expected an int, a slice or an array of ints, got {text_of(place)}"
+            ) from None
+        if not -len(self) <= number < len(self):
+            raise IndexError(f"expected {-len(self)} to {len(self) - 1}, got {number}")
+        outputs = {name: values[number] for name, values in self.outputs.items()}
+        return _cube_of_batch(self.faces[number], outputs, self.encoding)
+
+    def __iter__(self) -> Iterator[CubeMap]:
+        return (self[number] for number in range(len(self)))
+
+    def _some(self, place: Any) -> CubeMapBatch:
+        return CubeMapBatch(
+            self.faces[place],
+            outputs={name: values[place] for name, values in self.outputs.items()},
+            positions=None if self.positions is None else self.positions[place],
+            rotations=None if self.rotations is None else self.rotations[place],
+            encoding=self.encoding,
+        )
+
+    def __array__(
+        self, dtype: npt.DTypeLike | None = None, copy: bool | None = None
+    ) -> npt.NDArray[Any]:
+        """Give `faces` to ``numpy.asarray``."""
+        return (
+            np.array(self.faces, dtype=dtype, copy=True) if copy else np.asarray(self.faces, dtype)
+        )
+
+    def __repr__(self) -> str:
+        names = f", outputs={tuple(self.outputs)}" if self.outputs else ""
+        return (
+            f"CubeMapBatch({len(self)}, size={self.size}, channels={self.channels}, "
+            f"dtype={self.dtype}{names}, encoding={self.encoding!r})"
+        )
+
+    @checked_call
+    def to_xarray(self) -> xarray.Dataset:
+        """Give the batch to xarray, with names for axes and faces and the conventions as attributes.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``color`` with dims probe, face, row, column, channel, and each output; they share the batch's memory.
+            Coordinates: ``face`` ("+x" to "-z"), ``channel``, and, where the batch knows them, ``x``, ``y``, ``z`` and
+            ``rotation`` of each probe.
+
+        Raises
+        ------
+        ImportError
+            Without the package xarray.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> batch = cc.CubeMapBatch(np.zeros((10, 6, 4, 4, 3), np.float32), positions=np.zeros((10, 3)))
+        >>> data = batch.to_xarray()
+        >>> data.color.sel(face="+y", channel="r").dims
+        ('probe', 'row', 'column')
+        """
+        from .labelled import cubes
+
+        return cubes(self)
+
+
+def _array(value: npt.ArrayLike, name: str) -> npt.NDArray[Any]:
+    return value if type(value) is np.ndarray else np.asarray(_to_array(value, name))
+
+
+def _places(
+    value: npt.ArrayLike | None, name: str, count: int, width: int
+) -> npt.NDArray[np.float64] | None:
+    if value is None:
+        return None
+    array = _array(value, name)
+    if array.shape != (count, width):
+        raise ValueError(f"{name}: expected shape ({count}, {width}), got {array.shape}")
+    return array.astype(np.float64, copy=False)

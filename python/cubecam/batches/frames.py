@@ -1,0 +1,116 @@
+"""Frames of many cameras, as one array."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .._calls import checked_call
+from ._outputs import Output, OutputArrays
+
+if TYPE_CHECKING:
+    import xarray
+
+    from ..typing import Encoding, Format, Pixels
+
+__all__ = ["FrameBatch"]
+
+
+class FrameBatch:
+    """Frames of one size and format, as one array: what `Renderer.render_many` returns.
+
+    ``len(batch)`` is F, the number of frames.
+
+    Attributes
+    ----------
+    color : ndarray (F, H, W, 4) or None
+        The colours, uint8, float16 or float32 by the format; None with ``format=None``.
+    outputs : dict of str to ndarray (F, H, W) or (F, H, W, channels)
+        The outputs; each is a property, too: ``batch.distance``.
+    format : str or None
+        The format, as `Renderer.render` takes it.
+    encoding : str
+        "linear" or "srgb", what the numbers of `color` are.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> scene = cc.Scene(background=(1, 0, 0))
+    >>> cameras = [cc.PerspectiveCamera(position=(0, 0, z)) for z in (1, 2, 3)]
+    >>> with cc.Renderer() as renderer:
+    ...     batch = renderer.render_many(scene, cameras, (32, 16))
+    >>> batch
+    FrameBatch(3, size=(32, 16), format='rgba8', encoding='linear')
+    >>> batch.color[2, 0, 0].tolist()
+    [255, 0, 0, 255]
+    """
+
+    distance = Output("(F, H, W) float32", "length of the ray, world units; +inf background")
+    z = Output("(F, H, W) float32", "distance along the camera's axis; +inf background")
+    normal = Output("(F, H, W, 3) float32", "world shading normal; 0 background")
+    position = Output("(F, H, W, 3) float32", "world position; NaN background")
+    id = Output("(F, H, W) int32", "``Node.id`` of the visible node; 0 background")
+    label = Output("(F, H, W) int32", "``Node.label`` of the visible node; 0 background")
+    depth = Output("(F, H, W) float32", "window-space z, 0 near, 1 far and background")
+    stencil = Output("(F, H, W) uint8", "the stencil buffer; 0 background")
+
+    def __init__(
+        self,
+        count: int,
+        size: tuple[int, int],
+        color: Pixels | None,
+        outputs: OutputArrays,
+        format: Format | None,  # noqa: A002 - the name that Renderer.render has
+        encoding: Encoding,
+    ) -> None:
+        self.color = color
+        self.outputs = outputs
+        self.format = format
+        self.encoding = encoding
+        self._count = count
+        self._size = size
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """tuple of int: (width, height), pixels."""
+        return self._size
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __array__(
+        self, dtype: npt.DTypeLike | None = None, copy: bool | None = None
+    ) -> npt.NDArray[Any]:
+        """Give `color` to ``numpy.asarray``."""
+        if self.color is None:
+            raise ValueError("expected frames with a colour, got a batch with format=None")
+        return (
+            np.array(self.color, dtype=dtype, copy=True) if copy else np.asarray(self.color, dtype)
+        )
+
+    def __repr__(self) -> str:
+        names = f", outputs={tuple(self.outputs)}" if self.outputs else ""
+        return (
+            f"FrameBatch({len(self)}, size={self.size}, format={self.format!r}{names}, "
+            f"encoding={self.encoding!r})"
+        )
+
+    @checked_call
+    def to_xarray(self) -> xarray.Dataset:
+        """Give the batch to xarray: ``color`` with dims frame, row, column, channel, and each output.
+
+        Returns
+        -------
+        xarray.Dataset
+            It shares the batch's memory.
+
+        Raises
+        ------
+        ImportError
+            Without the package xarray.
+        """
+        from .labelled import frames
+
+        return frames(self)
