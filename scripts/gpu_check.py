@@ -5,9 +5,10 @@
     python scripts/gpu_check.py --device software --quick
 
 The parts are `info` (device, limits, driver), `suite` (the tests with CUBECAM_TEST_DEVICE), `benchmarks` (against
-moderngl, where it is installed), `readback` (bytes a second by format and size), `probes` (1,000 mirrors with a
-probe each) and `pictures` (the reference pictures, drawn and compared with llvmpipe's). Each part runs in a process of
-its own with a limit of time, so that a driver that ends or blocks one part does not end the others.
+moderngl, where it is installed), `readback` (bytes a second by format and size), `asynchronous` (captures with four
+under way, over a copy into pinned memory), `probes` (1,000 mirrors with a probe each) and `pictures` (the reference
+pictures, drawn and compared with llvmpipe's). Each part runs in a process of its own with a limit of time, so that a
+driver that ends or blocks one part does not end the others.
 
 The script fails if a part fails. docs/gpu.md describes the figures.
 """
@@ -184,6 +185,13 @@ def readback(options: argparse.Namespace) -> list[dict[str, Any]]:
     return rows
 
 
+def asynchronous(options: argparse.Namespace) -> dict[str, Any]:
+    """Captures that are waited for and captures that are under way, beside numpy and beside a copy of CUDA."""
+    from benchmarks.asynchronous import measured
+
+    return measured(options.device, options.quick)
+
+
 def probes(options: argparse.Namespace) -> dict[str, Any]:
     """1,000 mirror balls in a cube, each with a probe of its own, which the others see."""
     import cubecam as cc
@@ -254,6 +262,7 @@ PARTS: dict[str, Callable[[argparse.Namespace], Any]] = {
     "info": info,
     "pictures": pictures,
     "readback": readback,
+    "asynchronous": asynchronous,
     "probes": probes,
     "benchmarks": benchmarks,
     "suite": suite,

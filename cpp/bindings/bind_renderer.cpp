@@ -1,4 +1,5 @@
 #include "arrays.hpp"
+#include "asynchronous.hpp"
 #include "docs/renderer.hpp"
 #include "effect_list.hpp"
 #include "formats.hpp"
@@ -33,8 +34,10 @@ namespace cubecam {
 namespace {
 
 using bindings::capture_options;
+using bindings::CaptureRequest;
 using bindings::FormatOrNone;
 using bindings::frame_options;
+using bindings::FrameRequest;
 using bindings::OutputNames;
 using bindings::SeenBy;
 using bindings::snapshot_of;
@@ -68,43 +71,57 @@ std::shared_ptr<Renderer> make_renderer(const DeviceLike& device, const LayeredL
     return bindings::with_notices([&] { return std::make_shared<Renderer>(std::move(options)); });
 }
 
-PyFrame render(Renderer& renderer, const Scene& scene, const SeenBy& camera,
-               const bindings::SizeLike& size, const OutputNames& outputs,
-               const FormatOrNone& format, const bindings::WholeNumber& samples,
-               bindings::Real exposure,
-               const std::optional<bindings::Choice<tonemap_names>>& tonemap,
-               const std::optional<bindings::Choice<encode_names>>& encode,
-               const bindings::EffectsLike& effects, const bindings::DepthFormatName& depth_format,
-               bindings::Flag screen_reflections) {
-    const FrameOptions options =
-        frame_options({size, outputs, format, samples, exposure, tonemap, encode, depth_format,
-                       screen_reflections});
-    const auto seen = to_camera(camera);
-    const auto snapshot = snapshot_of(scene, bindings::to_effects(effects));
-    return PyFrame(bindings::with_notices([&] {
-        return std::visit(
-            [&](const auto& value) { return renderer.render(*snapshot, value, options); }, seen);
-    }));
+FrameRequest frame_request(const Scene& scene, const SeenBy& camera, const bindings::SizeLike& size,
+                           const OutputNames& outputs, const FormatOrNone& format,
+                           const bindings::WholeNumber& samples, bindings::Real exposure,
+                           const std::optional<bindings::Choice<tonemap_names>>& tonemap,
+                           const std::optional<bindings::Choice<encode_names>>& encode,
+                           const bindings::EffectsLike& effects,
+                           const bindings::DepthFormatName& depth_format,
+                           bindings::Flag screen_reflections) {
+    auto options = frame_options({size, outputs, format, samples, exposure, tonemap, encode,
+                                  depth_format, screen_reflections});
+    auto seen = to_camera(camera);
+    return {snapshot_of(scene, bindings::to_effects(effects)), std::move(seen), std::move(options)};
 }
 
-std::shared_ptr<CubeMap>
-capture(Renderer& renderer, const Scene& scene, const bindings::ArrayLike& position,
-        const bindings::WholeNumber& size, bindings::Real near, bindings::Real far,
-        const bindings::Nodes& exclude, const OutputNames& outputs, const FormatOrNone& format,
-        const bindings::WholeNumber& samples, const bindings::OrNone<bindings::ArrayLike>& eye,
-        const bindings::DepthFormatName& depth_format,
-        const bindings::Choice<depth_order_names>& depth_order,
-        const bindings::OrNone<bindings::ArrayLike>& rotation) {
-    CaptureOptions options =
-        capture_options(scene, {size, near, far, exclude, outputs, format, samples, eye,
-                                depth_format, depth_order});
+CaptureRequest capture_request(const Scene& scene, const bindings::ArrayLike& position,
+                               const bindings::WholeNumber& size, bindings::Real near,
+                               bindings::Real far, const bindings::Nodes& exclude,
+                               const OutputNames& outputs, const FormatOrNone& format,
+                               const bindings::WholeNumber& samples,
+                               const bindings::OrNone<bindings::ArrayLike>& eye,
+                               const bindings::DepthFormatName& depth_format,
+                               const bindings::Choice<depth_order_names>& depth_order,
+                               const bindings::OrNone<bindings::ArrayLike>& rotation) {
+    CaptureOptions options = capture_options(scene, {size, near, far, exclude, outputs, format,
+                                                     samples, eye, depth_format, depth_order});
     options.position = to_vec3(position, "position");
     if (!rotation.is_none()) {
         options.rotation = unit_rotation(bindings::to_rotation(rotation, "rotation"));
     }
-    const auto snapshot = snapshot_of(scene);
-    return bindings::with_notices([&] { return renderer.capture(*snapshot, options); });
+    return {snapshot_of(scene), std::move(options)};
 }
+
+/// The two methods of a renderer that draw what `request` makes of their arguments: now, and later.
+/// `Later` is the type of the second one's result.
+template <auto request, class Later>
+struct Methods;
+
+template <class Request, class... Args, Request (*request)(Args...), class Later>
+struct Methods<request, Later> {
+    static auto now(Renderer& renderer, Args... args) {
+        return bindings::draw_now(renderer, request(std::forward<Args>(args)...));
+    }
+    static Later later(const std::shared_ptr<Renderer>& renderer, Args... args) {
+        return bindings::draw_later(renderer, request(std::forward<Args>(args)...));
+    }
+};
+
+using FutureFrame = bindings::Shown<"cubecam._futures.PictureFuture[cubecam.Frame]">;
+using FutureCube = bindings::Shown<"cubecam._futures.PictureFuture[cubecam.CubeMap]">;
+using Render = Methods<&frame_request, FutureFrame>;
+using Capture = Methods<&capture_request, FutureCube>;
 
 void update_probes(Renderer& renderer, const Scene& scene, const ProbesLike& probes) {
     std::vector<std::shared_ptr<Probe>> wanted;
@@ -137,25 +154,35 @@ void bind_renderer(pybind11::module_& m) {
     bind_stats(m);
     bind_info(m);
     bind_frame(m);
+    bindings::bind_later_call(m);
 
     auto renderer = bindings::declare<Renderer>(m, "Renderer", docs::renderer);
+    const auto def_render = [&](const char* name, auto method, const char* doc) {
+        renderer.def(name, method, py::arg("scene"), py::arg("camera"), py::arg("size"),
+                     py::kw_only(), py::arg("outputs") = py::tuple(), py::arg("format") = "rgba8",
+                     py::arg("samples") = 1, py::arg("exposure") = 0.0,
+                     py::arg("tonemap") = py::none(), py::arg("encode") = py::none(),
+                     py::arg("effects") = py::tuple(),
+                     py::arg("depth_format") = "depth_component32f",
+                     py::arg("screen_reflections") = false, doc);
+    };
+    const auto def_capture = [&](const char* name, auto method, const char* doc) {
+        renderer.def(name, method, py::arg("scene"),
+                     py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("size") = 256,
+                     py::kw_only(), py::arg("near") = 0.05, py::arg("far") = 1000.0,
+                     py::arg("exclude") = py::tuple(), py::arg("outputs") = py::tuple(),
+                     py::arg("format") = "rgba32f", py::arg("samples") = 1,
+                     py::arg("eye") = py::none(), py::arg("depth_format") = "depth_component32f",
+                     py::arg("depth_order") = "nearest", py::arg("rotation") = py::none(), doc);
+    };
+    def_render("render", &Render::now, docs::render);
+    def_render("render_async", &Render::later, docs::render_async);
+    def_capture("capture", &Capture::now, docs::capture);
+    def_capture("capture_async", &Capture::later, docs::capture_async);
     renderer
         .def(py::init(&make_renderer), py::kw_only(), py::arg("device") = "auto",
              py::arg("layered") = py::none(), py::arg("cache_bytes") = std::int64_t{256} << 20,
              py::arg("debug") = false, py::arg("trust_shaders") = false)
-        .def("render", &render, py::arg("scene"), py::arg("camera"), py::arg("size"), py::kw_only(),
-             py::arg("outputs") = py::tuple(), py::arg("format") = "rgba8", py::arg("samples") = 1,
-             py::arg("exposure") = 0.0, py::arg("tonemap") = py::none(),
-             py::arg("encode") = py::none(), py::arg("effects") = py::tuple(),
-             py::arg("depth_format") = "depth_component32f", py::arg("screen_reflections") = false,
-             docs::render)
-        .def("capture", &capture, py::arg("scene"),
-             py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("size") = 256,
-             py::kw_only(), py::arg("near") = 0.05, py::arg("far") = 1000.0,
-             py::arg("exclude") = py::tuple(), py::arg("outputs") = py::tuple(),
-             py::arg("format") = "rgba32f", py::arg("samples") = 1, py::arg("eye") = py::none(),
-             py::arg("depth_format") = "depth_component32f", py::arg("depth_order") = "nearest",
-             py::arg("rotation") = py::none(), docs::capture)
         .def("update_probes", &update_probes, py::arg("scene"), py::kw_only(),
              py::arg("probes") = py::none(), docs::update_probes)
         .def(
@@ -183,9 +210,16 @@ void bind_renderer(pybind11::module_& m) {
             },
             py::arg("scene"), py::arg("light"), docs::shadow_map)
         .def(
-            "close", &Renderer::close, py::call_guard<bindings::Unlocked>(),
+            "close",
+            [](const std::shared_ptr<Renderer>& self) {
+                bindings::end_submitted(self, false);
+                const bindings::Unlocked unlocked;
+                self->close();
+            },
             "Free the OpenGL context and its memory. Calls after that raise ContextError; a second "
-            "close() does nothing.")
+            "close() does nothing. Calls of :meth:`render_async` and :meth:`capture_async` that "
+            "were made before are drawn first; leaving a ``with`` block by an exception cancels "
+            "those that have not begun.")
         .def_property_readonly("closed", &Renderer::closed, "bool: whether close() was called.")
         .def_property_readonly(
             "info", &Renderer::info,
@@ -199,9 +233,10 @@ void bind_renderer(pybind11::module_& m) {
             "Stats: what the last call drew.")
         .def("__enter__", [](std::shared_ptr<Renderer> self) { return self; })
         .def("__exit__",
-             [](Renderer& self, const py::args&) {
+             [](const std::shared_ptr<Renderer>& self, const py::args& error) {
+                 bindings::end_submitted(self, !error.empty() && !error[0].is_none());
                  const bindings::Unlocked unlocked;
-                 self.close();
+                 self->close();
              })
         .def("__repr__", [](const Renderer& self) {
             return "<cubecam.Renderer on " + self.info().renderer +

@@ -31,6 +31,7 @@ from ._late import late_names
 
 if TYPE_CHECKING:
     from . import doctor, explore, plot, truth
+    from ._futures import PictureFuture
     from ._warnings import ConventionWarning, RendererWarning, SceneWarning
     from .batches.captures import capture_scenes
     from .batches.cubemaps import CubeMapBatch
@@ -47,6 +48,7 @@ else:
     # What is written in Python needs numpy, which takes more time to load than the core: `cubecam info` does without.
     __getattr__, __dir__ = late_names(
         {
+            "_futures": ["PictureFuture"],
             "_warnings": ["ConventionWarning", "RendererWarning", "SceneWarning"],
             "batches.captures": ["capture_scenes"],
             "batches.cubemaps": ["CubeMapBatch"],
@@ -80,6 +82,7 @@ __all__ = [
     "ConventionWarning",
     "CubeMapBatch",
     "FrameBatch",
+    "PictureFuture",
     "RendererWarning",
     "SceneWarning",
     "Viewer",

@@ -13,6 +13,7 @@ import typing
 import numpy as np
 import numpy.typing
 
+import cubecam._futures
 import cubecam._shader_inputs
 import cubecam.batches.cubemaps
 import cubecam.batches.frames
@@ -9284,6 +9285,38 @@ class Frame:
         ndarray (H, W) float32: distance along the camera's axis, or a face's, world units; +inf background.
         """
 
+class _LaterCall:
+    """
+    A call of a renderer that waits to be drawn.
+    """
+
+    def __reduce__(self) -> tuple[object, ...]: ...
+    def draw(self: _LaterCall) -> bool:
+        """
+        Draw. Returns whether the pixels are there; if not, the next call can be drawn.
+        """
+
+    def join_line(self: _LaterCall) -> None:
+        """
+        Take a place in the line of the renderer's calls: in the order of drawing.
+        """
+
+    def leave_line(self: _LaterCall) -> None:
+        """
+        Leave it: the call will not be drawn. Nothing if it is being drawn.
+        """
+
+    def result(self: _LaterCall) -> object:
+        """
+        Wait for the pixels, and give the result.
+        """
+
+    @property
+    def notices(self) -> list[str]:
+        """
+        list of str: what the last of these two had to tell, also if it raised.
+        """
+
 class Renderer:
     """
     Draws scenes without a screen: frames, cubemaps and the probes that mirrors need.
@@ -9440,6 +9473,57 @@ class Renderer:
         ([1.0, 0.0, 0.0, 1.0], 1)
         """
 
+    def capture_async(
+        self: Renderer,
+        scene: Scene,
+        position: np.typing.ArrayLike = (0.0, 0.0, 0.0),
+        size: typing.SupportsIndex = 256,
+        *,
+        near: typing.SupportsFloat | typing.SupportsIndex = 0.05,
+        far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
+        exclude: collections.abc.Iterable[Node] = (),
+        outputs: collections.abc.Iterable[str] = (),
+        format: Format | None = "rgba32f",
+        samples: typing.SupportsIndex = 1,
+        eye: np.typing.ArrayLike | None = None,
+        depth_format: DepthFormat | None = "depth_component32f",
+        depth_order: DepthOrder = "nearest",
+        rotation: np.typing.ArrayLike | None = None,
+    ) -> cubecam._futures.PictureFuture[CubeMap]:
+        """
+        Have the surroundings of a point drawn by a thread of the renderer, and return at once.
+
+        The arguments are those of :meth:`capture`, and so are the bytes of the cubemap. :meth:`render_async` says in which
+        order calls are drawn, how many can wait, and which errors are raised when.
+
+        Parameters
+        ----------
+        scene, position, size
+            See :meth:`capture`.
+        near, far, exclude, outputs, format, samples, eye, depth_format, depth_order, rotation
+            See :meth:`capture`.
+
+        Returns
+        -------
+        PictureFuture of CubeMap
+
+        Raises
+        ------
+        ValueError, TypeError, ContextError
+            As :meth:`render_async` raises; also for an excluded node of another scene.
+
+        Examples
+        --------
+        >>> import asyncio
+        >>> import cubecam as cc
+        >>> async def captures(renderer, scene):
+        ...     return await asyncio.gather(*(renderer.capture_async(scene, (x, 0, 0), size=8) for x in range(4)))
+        >>> with cc.Renderer() as renderer:
+        ...     cubes = asyncio.run(captures(renderer, cc.Scene(background="teal")))
+        >>> len(cubes), cubes[0].faces.shape
+        (4, (6, 8, 8, 4))
+        """
+
     def capture_many(
         self,
         scene: Scene,
@@ -9516,7 +9600,7 @@ class Renderer:
 
     def close(self: Renderer) -> None:
         """
-        Free the OpenGL context and its memory. Calls after that raise ContextError; a second close() does nothing.
+        Free the OpenGL context and its memory. Calls after that raise ContextError; a second close() does nothing. Calls of :meth:`render_async` and :meth:`capture_async` that were made before are drawn first; leaving a ``with`` block by an exception cancels those that have not begun.
         """
 
     def iter_captures(
@@ -9710,6 +9794,68 @@ class Renderer:
         ...     frame = renderer.render(cc.Scene(background=(2, 0, 0)), cc.PerspectiveCamera(), size=(1, 1), format="rgba16f")
         >>> frame.color.tolist()
         [[[2.0, 0.0, 0.0, 1.0]]]
+        """
+
+    def render_async(
+        self: Renderer,
+        scene: Scene,
+        camera: Camera | StereoCamera,
+        size: tuple[int, int],
+        *,
+        outputs: collections.abc.Iterable[str] = (),
+        format: Format | None = "rgba8",
+        samples: typing.SupportsIndex = 1,
+        exposure: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        tonemap: Tonemap | None = None,
+        encode: Encode | None = None,
+        effects: collections.abc.Iterable[ImageEffect] = (),
+        depth_format: DepthFormat | None = "depth_component32f",
+        screen_reflections: bool = False,
+    ) -> cubecam._futures.PictureFuture[Frame]:
+        """
+        Have a picture of a scene drawn by a thread of the renderer, and return at once.
+
+        The arguments are those of :meth:`render`, and so are the bytes of the picture. It shows the scene and the camera as
+        they are now; later changes do not count. The future can be awaited by asyncio, and has ``result()``, ``cancel()`` and
+        the other methods of `concurrent.futures.Future`.
+
+        All calls of a renderer are drawn in the order in which they were made, whatever their kind. 64 calls can wait; a
+        further call waits until there is room, and so does one whose result the memory cannot hold besides those that are not
+        done. At the end of the program calls that wait are cancelled: wait for their results, or use a ``with`` block.
+
+        Parameters
+        ----------
+        scene, camera, size
+            See :meth:`render`.
+        outputs, format, samples, exposure, tonemap, encode, effects, depth_format, screen_reflections
+            See :meth:`render`.
+
+        Returns
+        -------
+        PictureFuture of Frame
+
+        Raises
+        ------
+        ValueError, TypeError
+            At once for what the arguments say, as :meth:`render` raises; what drawing finds is raised by the future.
+        ContextError
+            At once after :meth:`close`, or in a forked process.
+
+        Warns
+        -----
+        RendererWarning
+            At the line of this call, before the future is done. If a filter makes an error of it, the future raises it.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene, camera = cc.Scene(background=(1, 0, 0)), cc.PerspectiveCamera()
+        >>> with cc.Renderer() as renderer:
+        ...     red = renderer.render_async(scene, camera, size=(1, 1))
+        ...     scene.background = (0, 0, 1)
+        ...     blue = renderer.render_async(scene, camera, size=(1, 1))
+        >>> red.result().color.tolist(), blue.result().color.tolist()
+        ([[[255, 0, 0, 255]]], [[[0, 0, 255, 255]]])
         """
 
     def render_many(
@@ -10005,6 +10151,11 @@ def _read_radiance(
     The scanlines of a Radiance picture, (scanlines, length, 3) float32.
 
     ValueError names the scanline that is broken.
+    """
+
+def _read_through_buffers(always: bool) -> bool:
+    """
+    For tests: software drivers read pictures through buffers, as GPUs do; returns the value before.
     """
 
 def _restore_frame(state: tuple[object, ...]) -> Frame:

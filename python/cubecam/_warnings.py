@@ -6,7 +6,14 @@ import sys
 import warnings
 from pathlib import Path
 
-__all__ = ["ConventionWarning", "RendererWarning", "SceneWarning", "warn_user"]
+__all__ = [
+    "ConventionWarning",
+    "RendererWarning",
+    "SceneWarning",
+    "UsersLine",
+    "warn_at",
+    "warn_user",
+]
 
 _PACKAGE = str(Path(__file__).resolve().parent)
 
@@ -50,3 +57,21 @@ def warn_user(text: str, category: type[Warning]) -> None:
     while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
         level, frame = level + 1, frame.f_back
     warnings.warn(text, category, stacklevel=level)
+
+
+class UsersLine:
+    """The first line outside this package that led to a call, for warnings that come later."""
+
+    def __init__(self) -> None:
+        frame = sys._getframe(1)
+        while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
+            frame = frame.f_back
+        self.file, self.line = frame.f_code.co_filename, frame.f_lineno
+        self.names = frame.f_globals
+
+
+def warn_at(line: UsersLine, text: str, category: type[Warning]) -> None:
+    """Warn at a user's line, from whatever thread."""
+    module = line.names.get("__name__") or "<string>"
+    registry = line.names.setdefault("__warningregistry__", {})
+    warnings.warn_explicit(text, category, line.file, line.line, module, registry)

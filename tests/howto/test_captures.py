@@ -394,3 +394,15 @@ def test_a_page_without_claims_of_its_own_writes_what_it_names(name, pages):
     """What these pages say of files is tried by tests of the files, and by tests/interop."""
     folder, _ = pages(name)
     assert any(folder.iterdir())
+
+
+class TestAsynchronous:
+    NAME = "docs/howto/asynchronous.md"
+
+    def test_the_program_prints_what_the_page_says(self, pages):
+        _, scope = pages(self.NAME)
+        mean = scope["brightness"]
+        assert printed(self.NAME).strip() == (
+            f"{len(mean)} panoramas, none of them black: {min(mean) > 0.1}"
+        )
+        assert len(scope["around"]) == 20

@@ -186,7 +186,13 @@ NEEDED: dict[str, Any] = {
     "StereoCamera.toe_in": lambda: {"camera": cc.PerspectiveCamera(target=(0, 0, -1))},
     "Frame.save": lambda: {"path": "a.png"},
     "Renderer.capture": lambda: {"scene": cc.Scene(), "size": 1},
+    "Renderer.capture_async": lambda: {"scene": cc.Scene(), "size": 1},
     "Renderer.render": lambda: {
+        "scene": cc.Scene(),
+        "camera": cc.PerspectiveCamera(),
+        "size": (2, 2),
+    },
+    "Renderer.render_async": lambda: {
         "scene": cc.Scene(),
         "camera": cc.PerspectiveCamera(),
         "size": (2, 2),

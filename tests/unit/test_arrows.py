@@ -45,6 +45,7 @@ PYTHON_ORDER = (
     "_calls",  # errors of wrong calls, in words
     "_late",
     "_warnings",
+    "_futures",  # calls of a renderer that are drawn later
     "data",  # the packaged files and their list
     "_nodes",  # which nodes are shown
     "_rotations",  # matrices of quaternions

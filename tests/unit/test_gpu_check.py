@@ -16,7 +16,7 @@ def script():
 
 @pytest.mark.slow
 def test_the_parts_write_one_report(script, tmp_path):
-    parts = ("info", "pictures", "readback", "probes")
+    parts = ("info", "pictures", "readback", "asynchronous", "probes")
     only = [word for part in parts for word in ("--only", part)]
     found = script.main(["--device", DEVICE, "--quick", "--out", str(tmp_path), *only])
     report = json.loads((tmp_path / "gpu_check.json").read_text())
@@ -32,6 +32,10 @@ def test_the_parts_write_one_report(script, tmp_path):
         # depth, distance and id take 4 bytes; normal and position 12
         assert row["bytes"] == pixels * (color + (36 if row["outputs"] else 0))
         assert row["ms"] > 0
+    assert report["asynchronous"]["overlap"]["wall_ratio"] > 0
+    assert [row["bytes"] for row in report["asynchronous"]["stream"]] == [
+        6 * n * n * 16 for n in (64, 256)
+    ]
     assert report["probes"]["probes"] == 125
     assert report["probes"]["one_moved_views_drawn"] > 0
 

@@ -30,6 +30,8 @@ BY_POSITION = {
     # The redesign lists these callables.
     "Renderer.render": ["scene", "camera", "size"],
     "Renderer.capture": ["scene", "position", "size"],
+    "Renderer.render_async": ["scene", "camera", "size"],
+    "Renderer.capture_async": ["scene", "position", "size"],
     "Scene.add": ["mesh", "material"],
     "Mesh": ["positions", "indices"],
     "Mesh.box": ["size"],
@@ -189,7 +191,7 @@ def of_the_stub():
     for node in ast.parse(STUB.read_text(encoding="utf-8")).body:
         if isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
             yield node.name, positional(node.args)
-        if not isinstance(node, ast.ClassDef):
+        if not isinstance(node, ast.ClassDef) or node.name.startswith("_"):
             continue
         for member in node.body:
             if not isinstance(member, ast.FunctionDef):

@@ -187,6 +187,86 @@ Examples
 ([1.0, 0.0, 0.0, 1.0], 1)
 )doc";
 
+inline constexpr const char* render_async =
+    R"doc(Have a picture of a scene drawn by a thread of the renderer, and return at once.
+
+The arguments are those of :meth:`render`, and so are the bytes of the picture. It shows the scene and the camera as
+they are now; later changes do not count. The future can be awaited by asyncio, and has ``result()``, ``cancel()`` and
+the other methods of `concurrent.futures.Future`.
+
+All calls of a renderer are drawn in the order in which they were made, whatever their kind. 64 calls can wait; a
+further call waits until there is room, and so does one whose result the memory cannot hold besides those that are not
+done. At the end of the program calls that wait are cancelled: wait for their results, or use a ``with`` block.
+
+Parameters
+----------
+scene, camera, size
+    See :meth:`render`.
+outputs, format, samples, exposure, tonemap, encode, effects, depth_format, screen_reflections
+    See :meth:`render`.
+
+Returns
+-------
+PictureFuture of Frame
+
+Raises
+------
+ValueError, TypeError
+    At once for what the arguments say, as :meth:`render` raises; what drawing finds is raised by the future.
+ContextError
+    At once after :meth:`close`, or in a forked process.
+
+Warns
+-----
+RendererWarning
+    At the line of this call, before the future is done. If a filter makes an error of it, the future raises it.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene, camera = cc.Scene(background=(1, 0, 0)), cc.PerspectiveCamera()
+>>> with cc.Renderer() as renderer:
+...     red = renderer.render_async(scene, camera, size=(1, 1))
+...     scene.background = (0, 0, 1)
+...     blue = renderer.render_async(scene, camera, size=(1, 1))
+>>> red.result().color.tolist(), blue.result().color.tolist()
+([[[255, 0, 0, 255]]], [[[0, 0, 255, 255]]])
+)doc";
+
+inline constexpr const char* capture_async =
+    R"doc(Have the surroundings of a point drawn by a thread of the renderer, and return at once.
+
+The arguments are those of :meth:`capture`, and so are the bytes of the cubemap. :meth:`render_async` says in which
+order calls are drawn, how many can wait, and which errors are raised when.
+
+Parameters
+----------
+scene, position, size
+    See :meth:`capture`.
+near, far, exclude, outputs, format, samples, eye, depth_format, depth_order, rotation
+    See :meth:`capture`.
+
+Returns
+-------
+PictureFuture of CubeMap
+
+Raises
+------
+ValueError, TypeError, ContextError
+    As :meth:`render_async` raises; also for an excluded node of another scene.
+
+Examples
+--------
+>>> import asyncio
+>>> import cubecam as cc
+>>> async def captures(renderer, scene):
+...     return await asyncio.gather(*(renderer.capture_async(scene, (x, 0, 0), size=8) for x in range(4)))
+>>> with cc.Renderer() as renderer:
+...     cubes = asyncio.run(captures(renderer, cc.Scene(background="teal")))
+>>> len(cubes), cubes[0].faces.shape
+(4, (6, 8, 8, 4))
+)doc";
+
 inline constexpr const char* update_probes =
     R"doc(Draw probes now, whatever value their ``update`` has.
 

@@ -193,6 +193,7 @@ void Context::abandon() noexcept {
     gl.DeleteQueries = no_delete_many;
     gl.DeleteShader = no_delete;
     gl.DeleteProgram = no_delete;
+    gl.DeleteSync = +[](GLsync) {};
 }
 
 CurrentScope::CurrentScope(const Context& context) {

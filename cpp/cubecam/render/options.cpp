@@ -1,6 +1,8 @@
 #include "cubecam/render/options.hpp"
 
+#include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace cubecam {
 namespace {
@@ -21,6 +23,11 @@ void check_outputs_of(const RequestedOutputs& requested, DepthFormat depth_forma
         refuse(has_stencil(depth_format) ? "at most \"stencil\" without a depth buffer"
                                          : "none without a depth buffer");
     }
+}
+
+void check_finite(const glm::dvec3& value, const char* what) {
+    if (std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z)) return;
+    throw std::invalid_argument(std::string(what) + ": expected 3 finite numbers");
 }
 
 }  // namespace
@@ -48,6 +55,16 @@ void check_buffers(const FrameOptions& options) {
     }
     if (options.depth_format == DepthFormat::none) {
         throw std::invalid_argument("format, depth_format: expected at least one, got None twice");
+    }
+}
+
+void check(const CaptureOptions& options) {
+    check_finite(options.position, "position");
+    if (options.eye) check_finite(*options.eye, "eye");
+    if (!(options.near > 0.0) || !(options.far > options.near) || !std::isfinite(options.far)) {
+        throw std::invalid_argument("near, far: expected 0 < near < far, got near " +
+                                    std::to_string(options.near) + " and far " +
+                                    std::to_string(options.far));
     }
 }
 

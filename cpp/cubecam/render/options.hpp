@@ -58,6 +58,9 @@ struct CaptureOptions {
     DepthOrder depth_order = DepthOrder::nearest;
 };
 
+/// Throws std::invalid_argument for a position that is not finite, or clip distances out of order.
+void check(const CaptureOptions& options);
+
 /// One capture of a batch; it takes the place of `position` and `rotation` of its options.
 struct CapturePlace {
     glm::dvec3 position{0.0};

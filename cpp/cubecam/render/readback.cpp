@@ -11,8 +11,10 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <memory>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace cubecam {
@@ -50,17 +52,23 @@ Given given_output(int channels, OutputType type) {
 }
 
 /// Reads layers of a target. What `picture` and `output` are given has room for all layers of the
-/// target, and is filled by `finish`: all copies are requested first, and the GPU is waited for
-/// once.
-class Reader {
+/// target, and is filled later: by `start`, or, where pixels travel, by `arrive`; it must exist
+/// until then. All copies are requested first, and the GPU is waited for once; after `start` the
+/// target may be drawn into again.
+class Reader : public PixelsUnderWay {
 public:
-    /// `buffer` is null for a driver that needs none.
+    /// `ring` is null for a driver that needs none.
     Reader(const GladGLContext& gl, Target& target, std::vector<int> layers, ResultPool& pool,
-           ReadBuffer* buffer)
+           ReadRing* ring)
         : gl_(gl), target_(target), d_(target.description()), layers_(std::move(layers)),
-          pool_(pool), buffer_(buffer) {
+          pool_(pool), ring_(ring) {
         gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     }
+    ~Reader() override {
+        if (slot_ != nullptr) slot_->release();
+    }
+    Reader(const Reader&) = delete;
+    Reader& operator=(const Reader&) = delete;
 
     void picture(std::byte* to) {
         Layers& layers = d_.post_processed        ? target_.post_processed_pass()
@@ -87,12 +95,20 @@ public:
         }
     }
 
-    void finish() {
-        if (buffer_ == nullptr) {
+    /// Returns whether all pixels are there; else they are under way.
+    bool start() {
+        if (ring_ == nullptr) {
             read_now(0);
         } else {
-            read_through_buffer();
+            request_all();
         }
+        if (slot_ != nullptr) return false;
+        for (const auto& turn : turns_) turn();
+        return true;
+    }
+
+    void arrive() override {
+        place_requested();
         for (const auto& turn : turns_) turn();
     }
 
@@ -168,8 +184,8 @@ private:
             for (std::size_t first = 0; first < rows; first += most) {
                 const std::size_t some = std::min(most, rows - first);
                 const std::size_t above = d_.shape.has_faces() ? first : rows - first - some;
-                parts_.push_back({layers.one(number), slot, given, bytes, row, first,
-                                  some, layer + above * taken_row});
+                parts_.push_back({layers.one(number), slot, given, bytes, row, first, some,
+                                  layer + above * taken_row});
             }
         }
     }
@@ -203,34 +219,40 @@ private:
         }
     }
 
-    void read_through_buffer() {
-        for (std::size_t first = 0; first < parts_.size();) {
+    /// Requests all parts. Those that the last buffer holds are then under way.
+    void request_all() {
+        while (end_ < parts_.size()) {
             poll_interrupts();
-            std::size_t bytes = given_bytes(parts_[first]);
-            std::size_t end = first + 1;
-            while (end < parts_.size() &&
-                   aligned(bytes) + given_bytes(parts_[end]) <= ReadBuffer::most_bytes) {
-                bytes = aligned(bytes) + given_bytes(parts_[end++]);
+            if (slot_ != nullptr) place_requested();  // a large picture: one buffer after the other
+            begun_ = end_++;
+            std::size_t bytes = given_bytes(parts_[begun_]);
+            while (end_ < parts_.size() &&
+                   aligned(bytes) + given_bytes(parts_[end_]) <= ReadRing::most_bytes) {
+                bytes = aligned(bytes) + given_bytes(parts_[end_++]);
             }
             try {
-                buffer_->bind(gl_, bytes);
+                slot_ = ring_->take(bytes);
             } catch (const GlError& error) {
                 if (error.code() != GL_OUT_OF_MEMORY) throw;
-                return read_now(first);
+                return read_now(begun_);
             }
             std::size_t offset = 0;
-            for (std::size_t i = first; i < end; ++i) {
+            for (std::size_t i = begun_; i < end_; ++i) {
                 request(parts_[i], reinterpret_cast<void*>(offset));
                 offset = aligned(offset + given_bytes(parts_[i]));
             }
-            buffer_->read(gl_, bytes, [&](const std::byte* held) {
-                for (std::size_t i = first; i < end; ++i) {
-                    place(parts_[i], held);
-                    held += aligned(given_bytes(parts_[i]));
-                }
-            });
-            first = end;
+            slot_->requested(gl_);
         }
+    }
+
+    /// Waits for the parts in the buffer, and copies them into their results.
+    void place_requested() {
+        const std::byte* held = slot_->wait(gl_);
+        for (std::size_t i = begun_; i < end_; ++i) {
+            place(parts_[i], held);
+            held += aligned(given_bytes(parts_[i]));
+        }
+        ring_->give_back(*std::exchange(slot_, nullptr));
     }
 
     /// An offset must be a multiple of the size of a component (GL 4.5 section 18.2.2).
@@ -259,16 +281,27 @@ private:
 
     const GladGLContext& gl_;
     Target& target_;
-    const TargetDescription& d_;
+    const TargetDescription d_;
     const std::vector<int> layers_;
     ResultPool& pool_;
-    ReadBuffer* buffer_;
+    ReadRing* ring_;
+    std::shared_ptr<ReadRing::Slot> slot_;  // of the parts that are under way; null: none are
+    std::size_t begun_ = 0, end_ = 0;       // these parts
     std::vector<Part> parts_;
     std::vector<std::function<void()>> turns_;  // of the results, once they are read
 };
 
-ReadBuffer* needed(const gl::Context& context, ReadBuffer& buffer) {
-    return context.software() ? nullptr : &buffer;
+ReadRing* needed(const gl::Context& context, ReadRing& ring) {
+    return context.software() && !ReadRing::for_all_drivers ? nullptr : &ring;
+}
+
+/// Begins to read. A GPU goes on meanwhile; a software driver is waited for at a pace.
+std::unique_ptr<PixelsUnderWay> begin(const gl::Context& context, std::unique_ptr<Reader> reader,
+                                      const char* what) {
+    if (context.software()) context.pace().finish(context.gl());
+    const bool there = reader->start();
+    gl::check_gl(context.gl(), what);
+    return there ? nullptr : std::move(reader);
 }
 
 }  // namespace
@@ -308,57 +341,63 @@ std::size_t result_bytes(const TargetDescription& d) {
 
 namespace {
 
-/// Reads a target into memory of the pool. Returns the colour, or null if there is none.
-Result read_all(const gl::Context& context, Target& target, ResultPool& pool, ReadBuffer& buffer,
-                OutputList& outputs, const char* what) {
+/// Reads a target into memory of the pool. The colour is null if there is none.
+std::unique_ptr<PixelsUnderWay> start_all(const gl::Context& context, Target& target,
+                                          ResultPool& pool, ReadRing& ring, Result& color,
+                                          OutputList& outputs, const char* what) {
     const TargetDescription& d = target.description();
     const std::size_t texels = static_cast<std::size_t>(d.width) *
                                static_cast<std::size_t>(d.height) *
                                static_cast<std::size_t>(d.layers());
     std::vector<int> layers(static_cast<std::size_t>(d.layers()));
     std::iota(layers.begin(), layers.end(), 0);
-    Reader reader(context.gl(), target, std::move(layers), pool, needed(context, buffer));
-    Result color;
+    auto reader = std::make_unique<Reader>(context.gl(), target, std::move(layers), pool,
+                                           needed(context, ring));
     if (d.color) {
         color = pool.take(texels * color_bytes(d.format));
-        reader.picture(color->data());
+        reader->picture(color->data());
     }
     for (const OutputKind& kind : output_kinds(d.outputs)) {
-        outputs.push_back(
-            {kind.name, kind.channels, kind.type, pool.take(texels * kind.bytes())});
-        reader.output(kind, outputs.back().values->data());
+        outputs.push_back({kind.name, kind.channels, kind.type, pool.take(texels * kind.bytes())});
+        reader->output(kind, outputs.back().values->data());
     }
-    context.pace().finish(context.gl());
-    reader.finish();
-    gl::check_gl(context.gl(), what);
-    return color;
+    return begin(context, std::move(reader), what);
 }
 
 }  // namespace
 
-Frame read_frame(const gl::Context& context, Target& target, ResultPool& pool, ReadBuffer& buffer) {
+Reading<Frame> start_frame(const gl::Context& context, Target& target, ResultPool& pool,
+                           ReadRing& ring) {
     const TargetDescription& d = target.description();
-    Frame frame;
+    Reading<Frame> reading;
+    Frame& frame = reading.result;
     frame.width = d.width;
     frame.height = d.height * d.layers();
     frame.format = d.format;
-    frame.color = read_all(context, target, pool, buffer, frame.outputs, "reading a frame");
-    return frame;
+    reading.pixels =
+        start_all(context, target, pool, ring, frame.color, frame.outputs, "reading a frame");
+    return reading;
 }
 
-std::shared_ptr<CubeMap> read_cube(const gl::Context& context, Target& target, ResultPool& pool,
-                                   ReadBuffer& buffer, Encoding encoding) {
+Reading<std::shared_ptr<CubeMap>> start_cube(const gl::Context& context, Target& target,
+                                             ResultPool& pool, ReadRing& ring, Encoding encoding) {
     const TargetDescription& d = target.description();
+    Result color;
     OutputList outputs;
-    Result color = read_all(context, target, pool, buffer, outputs, "reading a cubemap");
-    return std::make_shared<CubeMap>(d.width, 4, dtype_of(d.format), std::move(color), d.mipmaps,
-                                     std::move(outputs), encoding);
+    std::unique_ptr<PixelsUnderWay> pixels =
+        start_all(context, target, pool, ring, color, outputs, "reading a cubemap");
+    return {std::make_shared<CubeMap>(d.width, 4, dtype_of(d.format), std::move(color), d.mipmaps,
+                                      std::move(outputs), encoding),
+            std::move(pixels)};
 }
 
 ClearTexels read_texels(const gl::Context& context, Target& target, ResultPool& pool,
-                        ReadBuffer& buffer) {
+                        ReadRing& ring) {
     OutputList outputs;
-    const Result color = read_all(context, target, pool, buffer, outputs, "reading a texel");
+    Result color;
+    const std::unique_ptr<PixelsUnderWay> pixels =
+        start_all(context, target, pool, ring, color, outputs, "reading a texel");
+    if (pixels != nullptr) pixels->arrive();
     const TargetDescription& d = target.description();
     const auto first = [](const PixelBuffer& values, std::size_t bytes) {
         return std::vector<std::byte>(values.begin(),
@@ -392,10 +431,11 @@ void fill(std::byte* to, std::size_t count, const std::vector<std::byte>& texel)
 }  // namespace
 
 void read_layers(const gl::Context& context, Target& target, const std::vector<bool>& drawn,
-                 const ClearTexels& clear, ResultPool& pool, ReadBuffer& buffer,
+                 const ClearTexels& clear, ResultPool& pool, ReadRing& ring,
                  const LayerMemory& to) {
     const TargetDescription& d = target.description();
-    const std::size_t texels = static_cast<std::size_t>(d.width) * static_cast<std::size_t>(d.height);
+    const std::size_t texels =
+        static_cast<std::size_t>(d.width) * static_cast<std::size_t>(d.height);
     const std::vector<OutputKind> kinds = output_kinds(d.outputs);
     std::vector<int> layers;
     for (std::size_t layer = 0; layer < drawn.size(); ++layer) {
@@ -413,12 +453,13 @@ void read_layers(const gl::Context& context, Target& target, const std::vector<b
         }
     }
     if (layers.empty()) return;
-    Reader reader(context.gl(), target, layers, pool, needed(context, buffer));
-    if (d.color) reader.picture(to.color);
-    for (std::size_t i = 0; i < kinds.size(); ++i) reader.output(kinds[i], to.outputs[i]);
-    context.pace().finish(context.gl());
-    reader.finish();
-    gl::check_gl(context.gl(), "reading a batch");
+    auto reader =
+        std::make_unique<Reader>(context.gl(), target, layers, pool, needed(context, ring));
+    if (d.color) reader->picture(to.color);
+    for (std::size_t i = 0; i < kinds.size(); ++i) reader->output(kinds[i], to.outputs[i]);
+    const std::unique_ptr<PixelsUnderWay> pixels =
+        begin(context, std::move(reader), "reading a batch");
+    if (pixels != nullptr) pixels->arrive();
 }
 
 }  // namespace cubecam

@@ -3,13 +3,14 @@
 #include "cubecam/cubemap/cubemap.hpp"
 #include "cubecam/gl/context.hpp"
 #include "cubecam/render/frame.hpp"
-#include "cubecam/render/resources/read_buffer.hpp"
+#include "cubecam/render/resources/read_ring.hpp"
 #include "cubecam/render/resources/result_pool.hpp"
 #include "cubecam/render/resources/target.hpp"
 
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cubecam {
@@ -22,7 +23,9 @@ struct OutputKind {
     OutputSource source;
     std::size_t slot;  ///< of a shader's output
 
-    std::size_t bytes() const { return output_type_size(type) * static_cast<std::size_t>(channels); }
+    std::size_t bytes() const {
+        return output_type_size(type) * static_cast<std::size_t>(channels);
+    }
 };
 
 /// The outputs in the order in which results list them.
@@ -42,11 +45,34 @@ struct LayerMemory {
 /// The main memory that reading a target takes: the results, and one layer on its way.
 std::size_t result_bytes(const TargetDescription& description);
 
+/// Pixels on their way from the GPU.
+class PixelsUnderWay {
+public:
+    virtual ~PixelsUnderWay() = default;
+    /// Waits for them. The context must be current, and the same. Polls.
+    virtual void arrive() = 0;
+};
+
+/// A result whose memory is filled now, or when its pixels have arrived.
+template <class Result>
+struct Reading {
+    Result result;
+    std::unique_ptr<PixelsUnderWay> pixels;  ///< null: they are there
+
+    /// Waits for the pixels.
+    Result finished() && {
+        if (pixels != nullptr) pixels->arrive();
+        return std::move(result);
+    }
+};
+
 /// Copies of a target's contents. Frames are flipped so that row 0 is on top, with several views
-/// one below the other; cube faces are copied as they are.
-Frame read_frame(const gl::Context& context, Target& target, ResultPool& pool, ReadBuffer& buffer);
-std::shared_ptr<CubeMap> read_cube(const gl::Context& context, Target& target, ResultPool& pool,
-                                   ReadBuffer& buffer, Encoding encoding);
+/// one below the other; cube faces are copied as they are. After these functions the target may
+/// change.
+Reading<Frame> start_frame(const gl::Context& context, Target& target, ResultPool& pool,
+                           ReadRing& ring);
+Reading<std::shared_ptr<CubeMap>> start_cube(const gl::Context& context, Target& target,
+                                             ResultPool& pool, ReadRing& ring, Encoding encoding);
 
 /// A texel of each buffer where nothing is drawn: the bytes of the colour, then those of each
 /// output.
@@ -56,11 +82,10 @@ struct ClearTexels {
 };
 /// Reads the texels from a target that was cleared.
 ClearTexels read_texels(const gl::Context& context, Target& target, ResultPool& pool,
-                        ReadBuffer& buffer);
+                        ReadRing& ring);
 
 /// Copies the layers that were drawn into given memory, and fills the others with a texel.
 void read_layers(const gl::Context& context, Target& target, const std::vector<bool>& drawn,
-                 const ClearTexels& clear, ResultPool& pool, ReadBuffer& buffer,
-                 const LayerMemory& to);
+                 const ClearTexels& clear, ResultPool& pool, ReadRing& ring, const LayerMemory& to);
 
 }  // namespace cubecam

@@ -15,6 +15,7 @@
 #include "cubecam/trial/trial.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -29,6 +30,8 @@ namespace {
 constexpr const char* forked = "this renderer belongs to the parent process: OpenGL does not "
                                "survive a fork. Expected a Renderer made in a process "
                                "of its own; start workers with multiprocessing's \"spawn\" method";
+
+constexpr const char* is_closed = "the renderer is closed: expected an open Renderer";
 
 constexpr const char* layer_extension = "GL_ARB_shader_viewport_layer_array";
 
@@ -48,21 +51,6 @@ Layering layering(const gl::Context& context, const RendererOptions& options) {
     if (possible) return Layering::always;
     throw std::invalid_argument(std::string("layered: expected None or False, since ") +
                                 context.renderer() + " lacks " + layer_extension + ", got True");
-}
-
-void check_finite(const glm::dvec3& value, const char* what) {
-    if (std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z)) return;
-    throw std::invalid_argument(std::string(what) + ": expected 3 finite numbers");
-}
-
-void check(const CaptureOptions& options) {
-    check_finite(options.position, "position");
-    if (options.eye) check_finite(*options.eye, "eye");
-    if (!(options.near > 0.0) || !(options.far > options.near) || !std::isfinite(options.far)) {
-        throw std::invalid_argument("near, far: expected 0 < near < far, got near " +
-                                    std::to_string(options.near) + " and far " +
-                                    std::to_string(options.far));
-    }
 }
 
 /// The encoding of the target's picture; for an unchanged call, that of the last one.
@@ -109,11 +97,20 @@ Encoding frame_encoding(const PostProcess& post_process, const Find& drawn) {
     return drawn();
 }
 
+/// For render_views and capture_views: the result itself.
+constexpr auto read_at_once = [](auto&& reading) { return std::move(reading).finished(); };
+
+std::uint64_t next_context() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
+
 }  // namespace
 
 /// The context outlives the objects that were made in it.
 struct Renderer::Gpu {
-    Gpu(gl::Context made, const RendererOptions& options) : context(std::move(made)) {
+    Gpu(gl::Context made, const RendererOptions& options)
+        : number(next_context()), context(std::move(made)) {
         const gl::CurrentScope scope(context);
         if (context.software()) keep_freed_memory();
         state.emplace(context, layering(context, options), options.cache_bytes);
@@ -121,6 +118,7 @@ struct Renderer::Gpu {
         state->surface.programs().set_trial(std::make_unique<trial::Trial>(context));
     }
 
+    const std::uint64_t number;  ///< of the context, in the process
     gl::Context context;
     std::optional<RendererState> state;
 };
@@ -239,6 +237,11 @@ struct Renderer::Drawing {
     const gl::CurrentScope scope;
 };
 
+void Renderer::check_open() const {
+    if (gl::in_forked_child()) throw ContextError(forked);
+    if (closed_) throw ContextError(is_closed);
+}
+
 template <class Work>
 auto Renderer::run(Work&& work) {
     if (gl::in_forked_child()) throw ContextError(forked);
@@ -246,8 +249,9 @@ auto Renderer::run(Work&& work) {
         throw Error("this renderer is drawing, and a signal handler interrupted it: expected a "
                     "call after the drawing has ended, got one from the handler");
     }
+    const CallLine::Turn turn(line_);
     const std::lock_guard lock(mutex_);
-    if (gpu_ == nullptr) throw ContextError("the renderer is closed: expected an open Renderer");
+    if (gpu_ == nullptr) throw ContextError(is_closed);
     const Running running(*this);
     ++gpu_->state->call;
     try {
@@ -327,12 +331,11 @@ void Renderer::draw_again(RendererState& gpu, const Object& object, const LostPi
                        "since: render a frame that shows it");
 }
 
-Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraValue> cameras,
-                             const FrameOptions& options) {
+template <class Read>
+auto Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraValue> cameras,
+                            const FrameOptions& options, Read&& read) {
     check_buffers(options);
-    if (!options.color && !scene.effects.empty()) {
-        throw std::invalid_argument("effects: expected none without a colour, got format None");
-    }
+    check_effects(scene, options);
     return run([&](RendererState& gpu) {
         const int count = static_cast<int>(cameras.size());
         TargetDescription description = describe_target(
@@ -362,28 +365,17 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
         frame.draw(std::move(views), target, seen_by_all, {}, post_process,
                    options.screen_reflections);
         stats_ = frame.stats;
-        Frame drawn = read_frame(gpu.context, target, *gpu.results, gpu.read_buffer);
-        drawn.tonemapped = post_process.tonemap != Tonemap::none;
-        drawn.encoding =
+        Reading<Frame> drawn = start_frame(gpu.context, target, *gpu.results, gpu.read_ring);
+        drawn.result.tonemapped = post_process.tonemap != Tonemap::none;
+        drawn.result.encoding =
             kept_encoding(target, [&] { return frame_encoding(post_process, encoding_as_drawn); });
-        return drawn;
+        return read(std::move(drawn));
     });
 }
 
-Frame Renderer::render(const SceneSnapshot& scene, const CameraValue& camera,
-                       const FrameOptions& options) {
-    return render_views(scene, {&camera, 1}, options);
-}
-
-Frame Renderer::render(const SceneSnapshot& scene, const StereoValue& camera,
-                       const FrameOptions& options) {
-    const CameraValue eyes[] = {camera.eyes.left, camera.eyes.right};
-    return combine_eyes(render_views(scene, eyes, eye_options(options, camera.layout)),
-                        camera.layout);
-}
-
-std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
-                                           const CaptureOptions& options) {
+template <class Read>
+auto Renderer::capture_views(const SceneSnapshot& scene, const CaptureOptions& options,
+                             Read&& read) {
     check(options);
     check_buffers(options);
     return run([&](RendererState& gpu) {
@@ -406,9 +398,91 @@ std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
         const auto seen = seen_by(options);
         frame.draw(std::move(views), target, seen, std::move(wanted));
         stats_ = frame.stats;
-        return read_cube(gpu.context, target, *gpu.results, gpu.read_buffer,
-                         kept_encoding(target, [&] { return scene_encoding(scene, 0, seen); }));
+        return read(
+            start_cube(gpu.context, target, *gpu.results, gpu.read_ring,
+                       kept_encoding(target, [&] { return scene_encoding(scene, 0, seen); })));
     });
+}
+
+Frame Renderer::render(const SceneSnapshot& scene, const CameraValue& camera,
+                       const FrameOptions& options) {
+    return render_views(scene, {&camera, 1}, options, read_at_once);
+}
+
+Frame Renderer::render(const SceneSnapshot& scene, const StereoValue& camera,
+                       const FrameOptions& options) {
+    const CameraValue eyes[] = {camera.eyes.left, camera.eyes.right};
+    return combine_eyes(
+        render_views(scene, eyes, eye_options(options, camera.layout), read_at_once),
+        camera.layout);
+}
+
+std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
+                                           const CaptureOptions& options) {
+    return capture_views(scene, options, read_at_once);
+}
+
+template <class Result>
+Pending<Result> Renderer::pending(Reading<Result> reading) const {
+    return {std::move(reading), gpu_->number, std::nullopt};
+}
+
+Pending<Frame> Renderer::begin_render(const SceneSnapshot& scene, const CameraValue& camera,
+                                      const FrameOptions& options) {
+    return render_views(scene, {&camera, 1}, options,
+                        [this](auto&& reading) { return pending(std::move(reading)); });
+}
+
+Pending<Frame> Renderer::begin_render(const SceneSnapshot& scene, const StereoValue& camera,
+                                      const FrameOptions& options) {
+    const CameraValue eyes[] = {camera.eyes.left, camera.eyes.right};
+    Pending<Frame> begun =
+        render_views(scene, eyes, eye_options(options, camera.layout),
+                     [this](auto&& reading) { return pending(std::move(reading)); });
+    begun.layout = camera.layout;
+    return begun;
+}
+
+Pending<std::shared_ptr<CubeMap>> Renderer::begin_capture(const SceneSnapshot& scene,
+                                                          const CaptureOptions& options) {
+    return capture_views(scene, options,
+                         [this](auto&& reading) { return pending(std::move(reading)); });
+}
+
+template <class Result>
+std::optional<Result> Renderer::arrived(Pending<Result> pending) {
+    if (pending.reading.pixels == nullptr) return std::move(pending.reading.result);
+    if (gl::in_forked_child()) throw ContextError(forked);
+    const std::lock_guard lock(mutex_);
+    if (gpu_ == nullptr) throw ContextError(is_closed);
+    if (gpu_->number != pending.context) return std::nullopt;
+    const Running running(*this);
+    try {
+        const gl::CurrentScope scope(gpu_->context);
+        try {
+            pending.reading.pixels->arrive();
+            gpu_->context.check_reset();
+        } catch (const GlError&) {
+            gpu_->context.check_reset();  // after a reset nothing that the driver reports is true
+            throw;
+        }
+    } catch (const ContextLost& lost) {
+        rebuild(lost);
+        return std::nullopt;
+    }
+    return std::move(pending.reading.result);
+}
+
+std::optional<Frame> Renderer::finish(Pending<Frame> pending) {
+    const std::optional<StereoLayout> layout = pending.layout;
+    std::optional<Frame> frame = arrived(std::move(pending));
+    if (frame && layout) return combine_eyes(*std::move(frame), *layout);
+    return frame;
+}
+
+std::optional<std::shared_ptr<CubeMap>>
+Renderer::finish(Pending<std::shared_ptr<CubeMap>> pending) {
+    return arrived(std::move(pending));
 }
 
 namespace {
@@ -457,15 +531,14 @@ Renderer::BatchShape Renderer::batch_shape(const SceneSnapshot& scene,
         Target& cleared = gpu.targets.get(gpu.context, texel);
         const auto* color = std::get_if<glm::vec4>(&scene.background);
         clear_all(gpu.context.gl(), cleared, color != nullptr ? *color : glm::vec4(0.0F));
-        const std::size_t most =
-            gpu.context.software() ? software_batch_bytes : gpu_batch_bytes;
+        const std::size_t most = gpu.context.software() ? software_batch_bytes : gpu_batch_bytes;
         const gl::Limits& limits = gpu.context.limits();
         const int layers = std::min(limits.max_array_texture_layers, limits.max_framebuffer_layers);
-        const auto fitting = static_cast<int>(
-            std::min<std::size_t>(most / one.bytes(), most_cubes_of_batch));
+        const auto fitting =
+            static_cast<int>(std::min<std::size_t>(most / one.bytes(), most_cubes_of_batch));
         return BatchShape{std::clamp(std::min(fitting, layers / 6), 1, most_cubes_of_batch),
                           output_kinds(one.outputs), scene_encoding(scene, 0, seen_by(options)),
-                          read_texels(gpu.context, cleared, *gpu.results, gpu.read_buffer)};
+                          read_texels(gpu.context, cleared, *gpu.results, gpu.read_ring)};
     });
 }
 
@@ -488,8 +561,7 @@ void Renderer::capture_batch(const SceneSnapshot& scene, const CaptureOptions& o
             add(sum, frame.stats);
         }
         stats_ = std::move(sum);
-        read_layers(gpu.context, batch.target, batch.drawn, clear, *gpu.results, gpu.read_buffer,
-                    to);
+        read_layers(gpu.context, batch.target, batch.drawn, clear, *gpu.results, gpu.read_ring, to);
         return true;
     });
 }
@@ -554,8 +626,8 @@ std::shared_ptr<CubeMap> Renderer::read_probe(const std::shared_ptr<Probe>& prob
                                         "a frame that needs it, or call update_probes()");
         }
         const std::shared_ptr<ProbeState> state = levels->at(*drawn);
-        return read_cube(gpu.context, *state->target, *gpu.results, gpu.read_buffer,
-                         state->encoding);
+        return start_cube(gpu.context, *state->target, *gpu.results, gpu.read_ring, state->encoding)
+            .finished();
     });
 }
 
@@ -569,7 +641,7 @@ Frame Renderer::read_texture(const std::shared_ptr<RenderTexture>& texture) {
             throw std::invalid_argument("render_texture: expected one that this renderer has "
                                         "drawn; render a frame that shows it");
         }
-        return read_frame(gpu.context, *state->target, *gpu.results, gpu.read_buffer);
+        return start_frame(gpu.context, *state->target, *gpu.results, gpu.read_ring).finished();
     });
 }
 

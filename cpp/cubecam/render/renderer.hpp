@@ -2,8 +2,10 @@
 
 #include "cubecam/cubemap/cubemap.hpp"
 #include "cubecam/gl/context.hpp"
+#include "cubecam/render/call_line.hpp"
 #include "cubecam/render/frame.hpp"
 #include "cubecam/render/options.hpp"
+#include "cubecam/render/pending.hpp"
 #include "cubecam/render/readback.hpp"
 #include "cubecam/render/resources/stats.hpp"
 #include "cubecam/scene/camera.hpp"
@@ -15,6 +17,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <thread>
 #include <vector>
@@ -49,11 +52,12 @@ struct ShadowDistances {
 /// Draws scenes into frames, captures and probes. It owns an OpenGL context and everything on the
 /// GPU.
 ///
-/// Any thread may call it; calls on one renderer run one after the other, several renderers run in
-/// parallel. Between calls its context is current on no thread. After close(), and in a process
-/// forked after EGL was opened, every call throws ContextError. A call polls for interrupts
-/// (core/interrupts.hpp); an interrupted picture counts as not drawn. Inside a poll, the same
-/// renderer draws nothing (Error), and close() takes effect when the call ends.
+/// Any thread may call it; calls on one renderer run one after the other in the order in which they
+/// were made (`line`), several renderers run in parallel. Between calls its context is current on
+/// no thread. After close(), and in a process forked after EGL was opened, every call throws
+/// ContextError. A call polls for interrupts (core/interrupts.hpp); an interrupted picture counts
+/// as not drawn. Inside a poll, the same renderer draws nothing (Error), and close() takes effect
+/// when the call ends.
 ///
 /// If the context is lost, since another library ended its display or the GPU was reset, the call
 /// makes a new one, adds a notice (core/notices.hpp) and is done again: everything on the GPU is
@@ -84,6 +88,25 @@ public:
     std::shared_ptr<CubeMap> capture(const Scene& scene, const CaptureOptions& options) {
         return capture(*scene.snapshot(), options);
     }
+
+    /// render() and capture() in two steps. The first draws, and the pixels begin to travel;
+    /// `finish` waits for them. Meanwhile the renderer draws other calls. With a software driver
+    /// the pixels are there after the first step.
+    Pending<Frame> begin_render(const SceneSnapshot& scene, const CameraValue& camera,
+                                const FrameOptions& options);
+    Pending<Frame> begin_render(const SceneSnapshot& scene, const StereoValue& camera,
+                                const FrameOptions& options);
+    Pending<std::shared_ptr<CubeMap>> begin_capture(const SceneSnapshot& scene,
+                                                    const CaptureOptions& options);
+    /// None: the context was lost meanwhile, and the pixels with it; the call must be made again.
+    std::optional<Frame> finish(Pending<Frame> pending);
+    std::optional<std::shared_ptr<CubeMap>> finish(Pending<std::shared_ptr<CubeMap>> pending);
+
+    /// The line in which all calls stand. A thread that draws calls of others takes a place for
+    /// each when the call is made.
+    CallLine& line() { return line_; }
+    /// @throws ContextError after close(), and in a forked child.
+    void check_open() const;
 
     /// The number of cubes that capture_batch draws at once, and what it writes.
     struct BatchShape {
@@ -151,11 +174,21 @@ private:
     template <class Object>
     void draw_again(RendererState& gpu, const Object& object, const LostPicture& last,
                     const char* kind);
-    /// Draws the cameras' pictures, each with the size of the options, one below the other.
-    Frame render_views(const SceneSnapshot& scene, std::span<const CameraValue> cameras,
-                       const FrameOptions& options);
+    /// Draws the cameras' pictures, each with the size of the options, one below the other. Returns
+    /// what `read` makes of the Reading, with the context still current.
+    template <class Read>
+    auto render_views(const SceneSnapshot& scene, std::span<const CameraValue> cameras,
+                      const FrameOptions& options, Read&& read);
+    template <class Read>
+    auto capture_views(const SceneSnapshot& scene, const CaptureOptions& options, Read&& read);
+    /// Makes a Reading, of a call that has just drawn, pending.
+    template <class Result>
+    Pending<Result> pending(Reading<Result> reading) const;
+    template <class Result>
+    std::optional<Result> arrived(Pending<Result> pending);
 
     const RendererOptions options_;
+    CallLine line_;
     mutable std::mutex info_mutex_;
     RendererInfo info_;
     mutable std::mutex mutex_;

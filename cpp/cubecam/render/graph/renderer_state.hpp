@@ -14,7 +14,7 @@
 #include "cubecam/render/resources/filtered_faces.hpp"
 #include "cubecam/render/resources/gpu_cache.hpp"
 #include "cubecam/render/resources/key.hpp"
-#include "cubecam/render/resources/read_buffer.hpp"
+#include "cubecam/render/resources/read_ring.hpp"
 #include "cubecam/render/resources/result_pool.hpp"
 #include "cubecam/render/resources/target_store.hpp"
 #include "cubecam/render/resources/weak_cache.hpp"
@@ -161,7 +161,7 @@ struct RendererState {
           screen_depths(its_context, cache, surface.programs()),
           bounce_changes(its_context, cache, surface.programs()),
           bodies(its_context, cache, surface.programs()), targets(cache_bytes),
-          results(std::make_shared<ResultPool>(cache_bytes)) {}
+          results(std::make_shared<ResultPool>(cache_bytes)), read_ring(its_context.gl()) {}
 
     /// Takes over what was not on the GPU from the state of a lost context. All else is drawn again
     /// when it is needed.
@@ -182,7 +182,7 @@ struct RendererState {
     BodyPass bodies;
     TargetStore targets;
     std::shared_ptr<ResultPool> results;  ///< shared: results may outlive the renderer
-    ReadBuffer read_buffer;
+    ReadRing read_ring;
     WeakCache<Probe, StatesByScene<ProbeLevels>> probes;
     WeakCache<Light, StatesByScene<ShadowState>> shadow_maps;
     WeakCache<RenderTexture, TextureState> textures;

@@ -65,10 +65,10 @@ void check_samples(const gl::Context& context, GLenum format, std::string_view n
 
 }  // namespace
 
-TargetDescription describe_target(const gl::Context& context, const TargetRequest& request) {
-    const gl::Limits& limits = context.limits();
-    const auto on = [&context](const char* limit) {
-        return std::string(" (") + limit + " of " + context.renderer() + ")";
+void check_limits(const gl::Limits& limits, const std::string& driver,
+                  const TargetRequest& request) {
+    const auto on = [&driver](const char* limit) {
+        return std::string(" (") + limit + " of " + driver + ")";
     };
     const bool faces = request.shape.has_faces();
     const std::int64_t width = request.width;
@@ -91,13 +91,6 @@ TargetDescription describe_target(const gl::Context& context, const TargetReques
         throw std::invalid_argument("samples: expected 1 to " + std::to_string(limits.max_samples) +
                                     on("GL_MAX_SAMPLES") + ", got " + std::to_string(samples));
     }
-    const DepthFormat depth_format = request.depth_format;
-    if (samples > 1 && request.color) {
-        check_samples(context, gl_format(request.format), to_string(request.format), samples);
-        if (depth_format != DepthFormat::none) {
-            check_samples(context, gl_format(depth_format), to_string(depth_format), samples);
-        }
-    }
     const int buffers = std::min(limits.max_draw_buffers, limits.max_color_attachments);
     const std::size_t shaded = request.outputs.by_slot().size();
     if (shaded + 1 > static_cast<std::size_t>(buffers)) {
@@ -105,17 +98,34 @@ TargetDescription describe_target(const gl::Context& context, const TargetReques
                                     " besides colour, depth and stencil" +
                                     on("GL_MAX_DRAW_BUFFERS") + ", got " + std::to_string(shaded));
     }
+}
+
+TargetDescription described(const TargetRequest& request) {
     TargetDescription description;
     description.shape = request.shape;
-    description.width = static_cast<int>(width);
-    description.height = static_cast<int>(height);
-    description.samples = request.color ? static_cast<int>(samples) : 1;
+    description.width = static_cast<int>(request.width);
+    description.height = static_cast<int>(request.height);
+    description.samples = request.color ? static_cast<int>(request.samples) : 1;
     description.format = request.color ? request.format : Format::rgba8;
     description.outputs = request.outputs;
     description.color = request.color;
-    description.depth_format = depth_format;
+    description.depth_format = request.depth_format;
     description.depth_order = request.depth_order;
     return description;
+}
+
+TargetDescription describe_target(const gl::Context& context, const TargetRequest& request) {
+    check_limits(context.limits(), context.renderer(), request);
+    if (request.samples > 1 && request.color) {
+        const DepthFormat depth_format = request.depth_format;
+        check_samples(context, gl_format(request.format), to_string(request.format),
+                      request.samples);
+        if (depth_format != DepthFormat::none) {
+            check_samples(context, gl_format(depth_format), to_string(depth_format),
+                          request.samples);
+        }
+    }
+    return described(request);
 }
 
 void check_target_memory(const gl::Context& context, const TargetDescription& description,

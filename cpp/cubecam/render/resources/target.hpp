@@ -16,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,14 @@ struct TargetRequest {
     bool color = true;
     DepthOrder depth_order = DepthOrder::nearest;
 };
+
+/// @throws std::invalid_argument that names the limit, if the size, the layers, the samples or the
+/// number of outputs exceed what a driver allows for any format. `driver` is GL_RENDERER.
+void check_limits(const gl::Limits& limits, const std::string& driver,
+                  const TargetRequest& request);
+
+/// The description of what a request asks for, whether a driver can draw it or not.
+TargetDescription described(const TargetRequest& request);
 
 /// Makes the description of a target. @throws std::invalid_argument that names the limit, if the
 /// request exceeds the driver's limits.
