@@ -96,7 +96,9 @@ std::byte* memory_of(const py::array& array, const char* name, const py::dtype& 
 }
 
 /// Draws the captures from number `first` on, as many as the arrays have room for.
-void draw(CaptureBatch& batch, std::size_t first, const py::array& faces, const py::list& outputs) {
+void draw(CaptureBatch& batch, std::size_t first, const Pixels& faces_given,
+          const py::typing::List<OutputArray>& outputs) {
+    const auto faces = py::reinterpret_borrow<py::array>(faces_given);
     const auto count = static_cast<std::size_t>(faces.shape(0));
     const auto n = static_cast<py::ssize_t>(batch.options.size);
     if (first + count > batch.places.size() || outputs.size() != batch.shape.outputs.size()) {

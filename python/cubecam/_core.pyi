@@ -15,8 +15,6 @@ import numpy.typing
 
 import cubecam._futures
 import cubecam._shader_inputs
-import cubecam.batches.cubemaps
-import cubecam.batches.frames
 import cubecam.viewer.controls
 import cubecam.viewer.cube_view
 from cubecam.typing import (
@@ -9541,7 +9539,7 @@ class Renderer:
         depth_format: DepthFormat = "depth_component32f",
         depth_order: DepthOrder = "nearest",
         progress: bool = True,
-    ) -> cubecam.batches.cubemaps.CubeMapBatch:
+    ) -> cubecam.CubeMapBatch:
         """
         Capture a scene from many places.
 
@@ -9874,7 +9872,7 @@ class Renderer:
         depth_format: DepthFormat | None = "depth_component32f",
         screen_reflections: bool = False,
         progress: bool = True,
-    ) -> cubecam.batches.frames.FrameBatch:
+    ) -> cubecam.FrameBatch:
         """
         Render a scene for many cameras, as `Renderer.render` does for one.
 
@@ -10023,8 +10021,8 @@ class _CaptureBatch:
     def draw(
         self,
         first: typing.SupportsInt | typing.SupportsIndex,
-        faces: np.ndarray,
-        outputs: list[object],
+        faces: np.typing.NDArray[np.uint8 | np.float16 | np.float32],
+        outputs: list[np.typing.NDArray[np.float32 | np.int32 | np.uint8]],
     ) -> None: ...
     @property
     def dtype(self) -> np.dtype[np.uint8 | np.float16 | np.float32]: ...

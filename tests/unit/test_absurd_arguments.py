@@ -186,6 +186,22 @@ NEEDED: dict[str, Any] = {
     "StereoCamera.toe_in": lambda: {"camera": cc.PerspectiveCamera(target=(0, 0, -1))},
     "Frame.save": lambda: {"path": "a.png"},
     "Renderer.capture": lambda: {"scene": cc.Scene(), "size": 1},
+    "Renderer.capture_many": lambda: {
+        "scene": cc.Scene(),
+        "positions": [(0, 0, 0)],
+        "size": 1,
+    },
+    "Renderer.iter_captures": lambda: {
+        "scene": cc.Scene(),
+        "positions": [(0, 0, 0)],
+        "size": 1,
+    },
+    "Renderer.render_many": lambda: {
+        "scene": cc.Scene(),
+        "cameras": [cc.PerspectiveCamera()],
+        "size": (2, 2),
+    },
+    "capture_scenes": lambda: {"make_scene": lambda number: cc.Scene(), "count": 1, "size": 1},
     "Renderer.capture_async": lambda: {"scene": cc.Scene(), "size": 1},
     "Renderer.render": lambda: {
         "scene": cc.Scene(),

@@ -45,6 +45,8 @@ PYTHON_ORDER = (
     "_calls",  # errors of wrong calls, in words
     "_late",
     "_warnings",
+    "_progress",  # a bar in the terminal
+    "batches",  # many captures and frames in one call
     "_futures",  # calls of a renderer that are drawn later
     "data",  # the packaged files and their list
     "_nodes",  # which nodes are shown

@@ -105,6 +105,10 @@ ENDS: dict[str, Any] = {"_map": PICTURE, "_color": [0.25, 0.5, 1.0]}
 ROUND = ("fisheye", "mirror_ball", "angular_map", "octahedral")
 OF_FUNCTIONS: dict[tuple[str, str], Any] = {
     ("Scene.set_positions", "positions"): [[1.0, 2.0, 3.0]],
+    ("Renderer.capture_many", "positions"): [[1.0, 2.0, 3.0]],
+    ("Renderer.iter_captures", "positions"): [[1.0, 2.0, 3.0]],
+    ("Renderer.capture_many", "rotations"): [[1.0, 0.0, 0.0, 0.0]],
+    ("Renderer.iter_captures", "rotations"): [[1.0, 0.0, 0.0, 0.0]],
     ("CubeMap.set_face", "pixels"): CUBE[0],
     ("MorphTarget", "tangents"): [[1.0, 0.0, 0.0]] * 3,
     ("Texture", "scale"): [1.0, 2.0],
@@ -141,6 +145,11 @@ NEEDED: dict[str, Any] = {
     },
     "Camera": lambda: {"view": np.eye(4), "projection": np.eye(4)},
     "ProbeGrid": lambda: {"box": VALUES["box"], "counts": (2, 2, 2)},
+    **{
+        f"Renderer.{many}": lambda: {"positions": [(0, 0, 0)]}
+        for many in ("capture_many", "iter_captures")
+    },
+    "capture_scenes": lambda: {"make_scene": lambda number: cc.Scene(), "count": 1, "size": 2},
     "Scene.add": lambda: {"mesh": morphing_mesh()},
     "Skin": lambda: {"joints": [cc.Scene().add()]},
     "AnimationChannel": lambda: {
@@ -179,7 +188,7 @@ def of_the_stub():
     for node in ast.parse(STUB.read_text(encoding="utf-8")).body:
         if isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
             members = [("", node)]
-        elif isinstance(node, ast.ClassDef):
+        elif isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
             members = [(node.name, m) for m in node.body if isinstance(m, ast.FunctionDef)]
         else:
             continue

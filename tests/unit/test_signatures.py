@@ -30,6 +30,10 @@ BY_POSITION = {
     # The redesign lists these callables.
     "Renderer.render": ["scene", "camera", "size"],
     "Renderer.capture": ["scene", "position", "size"],
+    "Renderer.capture_many": ["scene", "positions", "size"],
+    "Renderer.iter_captures": ["scene", "positions", "size"],
+    "Renderer.render_many": ["scene", "cameras", "size"],
+    "capture_scenes": ["make_scene", "count"],
     "Renderer.render_async": ["scene", "camera", "size"],
     "Renderer.capture_async": ["scene", "position", "size"],
     "Scene.add": ["mesh", "material"],

@@ -263,12 +263,7 @@ def capture_scenes(
         raise TypeError(f"make_scene: expected a callable, got {text_of(make_scene)}")
     if renderer is not None and not isinstance(renderer, Renderer):
         raise TypeError(f"renderer: expected a Renderer or None, got {text_of(renderer)}")
-    places = np.asarray(_to_array(position, "position"), np.float64)
-    if places.shape not in ((3,), (number_of_scenes, 3)):
-        raise ValueError(
-            f"position: expected shape (3,) or ({number_of_scenes}, 3), got {places.shape}"
-        )
-    places = np.ascontiguousarray(np.broadcast_to(places, (number_of_scenes, 3)))
+    places = np.broadcast_to(_places(position, number_of_scenes), (number_of_scenes, 3))
     wanted = list(outputs) if not isinstance(outputs, str) else outputs
 
     def plan(scene: Scene, at: npt.ArrayLike) -> _CaptureBatch:
@@ -316,11 +311,23 @@ def capture_scenes(
                 advance()
         if made is None:  # no scene: the arguments are checked all the same
             made = _room_for(plan(Scene(), places), 0)
-        made.positions = places
+        made.positions = np.array(places)
         return made
     finally:
         if renderer is None:
             used.close()
+
+
+def _places(position: npt.ArrayLike, count: int) -> npt.NDArray[np.float64]:
+    given = np.asarray(_to_array(position, "position"))
+    if given.dtype.kind not in "iuf":
+        raise TypeError(f"position: expected numbers, got {text_of(position)}")
+    if given.shape not in ((3,), (count, 3)):
+        raise ValueError(f"position: expected shape (3,) or ({count}, 3), got {given.shape}")
+    places = given.astype(np.float64)
+    if not np.isfinite(places).all():
+        raise ValueError("position: expected finite numbers, got nan or inf")
+    return places
 
 
 def _described(kinds: list[Any], encoding: str) -> str:

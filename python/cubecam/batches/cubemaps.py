@@ -73,6 +73,8 @@ class CubeMapBatch:
     5
     """
 
+    __module__ = "cubecam"
+
     distance = Output("(P, 6, N, N) float32", "length of the ray, world units; +inf background")
     z = Output("(P, 6, N, N) float32", "distance along the face's axis; +inf background")
     normal = Output("(P, 6, N, N, 3) float32", "world shading normal; 0 background")

@@ -47,6 +47,8 @@ class FrameBatch:
     [255, 0, 0, 255]
     """
 
+    __module__ = "cubecam"
+
     distance = Output("(F, H, W) float32", "length of the ray, world units; +inf background")
     z = Output("(F, H, W) float32", "distance along the camera's axis; +inf background")
     normal = Output("(F, H, W, 3) float32", "world shading normal; 0 background")
