@@ -202,8 +202,8 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
         poll_interrupts();
         if (target.multisampled()) resolve(target, static_cast<int>(v), bands(whole, most_pixels));
         if (target.description().post_processed) {
-            gpu.post_process.draw(post_process, textures, target, static_cast<int>(v), gpu.context,
-                                  stats);
+            gpu.post_process.draw(post_process, textures, target, static_cast<int>(v), damaged[v],
+                                  gpu.context, stats);
         }
     }
     gl::check_gl(gpu.context.gl(), "finishing a picture");
