@@ -99,19 +99,23 @@ def camera():
     return cc.PerspectiveCamera(fov=50, position=(0.5, 1, 6), target=(0, 0, 0))
 
 
-#: The options of a frame, and the least share of triangles that are not sent. A picture with samples is drawn as a whole.
+def camera_ahead():
+    return cc.PerspectiveCamera(fov=35, position=(0, 0, 5), target=(0, 0, 0))
+
+
+#: The options of a frame, and the least share of triangles that are not sent. A picture with samples is drawn whole.
 FRAMES = {
-    "plain": ({}, 0.4),
-    "outputs": ({"outputs": OUTPUTS}, 0.4),
-    "float": ({"format": "rgba32f", "depth_format": "depth_component16"}, 0.4),
-    "painter": ({"depth_format": None}, 0.4),
-    "stencil": ({"depth_format": "depth24_stencil8", "outputs": ("stencil", "depth")}, 0.4),
-    "graded": ({"tonemap": "aces", "encode": "srgb"}, 0.4),
+    "plain": ({}, 0.3),
+    "outputs": ({"outputs": OUTPUTS}, 0.3),
+    "float": ({"format": "rgba32f", "depth_format": "depth_component16"}, 0.3),
+    "painter": ({"depth_format": None}, 0.3),
+    "stencil": ({"depth_format": "depth24_stencil8", "outputs": ("stencil", "depth")}, 0.3),
+    "graded": ({"tonemap": "aces", "encode": "srgb"}, 0.3),
     "samples": ({"samples": 4, "outputs": ("id",)}, 0),
 }
 
 
-@pytest.mark.parametrize("options, least", FRAMES.values(), ids=FRAMES)
+@pytest.mark.parametrize(("options", "least"), FRAMES.values(), ids=FRAMES)
 def test_frames(new_renderer, options, least):
     need_equal_pixels()
     rng = np.random.default_rng(len(str(options)))
@@ -139,7 +143,7 @@ CAMERAS = {
         fov=12, position=(2, 1, 6), target=(1.5 + turn, 1, 0)
     ),
     "cut by near and far": lambda turn: cc.PerspectiveCamera(
-        fov=30, position=(2 + turn, 1.5, 5), target=(0, 0, 0), near=4.8, far=5.6
+        fov=30, position=(2 + turn, 1.5, 5), target=(0, 0, 0), near=5.1, far=5.3
     ),
 }
 
@@ -163,7 +167,7 @@ def test_cameras_that_move(new_renderer, make):
         change,
         ["color"],
     )
-    assert share > 0.2
+    assert share > 0.1
 
 
 @pytest.mark.parametrize("distance", [1e3, 1e6])
@@ -176,7 +180,7 @@ def test_far_from_the_origin(new_renderer, distance):
     for node in scene.nodes:
         if node.mesh is not None:
             node.parent = root
-    view = cc.PerspectiveCamera(fov=50, position=place + (0.5, 1, 6), target=place)
+    view = cc.PerspectiveCamera(fov=50, position=place + np.array((0.5, 1, 6)), target=place)
     share = follow(
         new_renderer(),
         new_renderer(),
@@ -273,7 +277,7 @@ def test_shadows(new_renderer, kind):
         lambda: move(movers, rng),
         ["color"],
     )
-    assert share > (0.3 if kind == "point" else -1)
+    assert share > (0.2 if kind == "point" else -1)
 
 
 def test_many_vertices_and_many_nodes(new_renderer):
@@ -297,6 +301,31 @@ def test_many_vertices_and_many_nodes(new_renderer):
     assert share > 0.7
 
 
+@pytest.mark.parametrize("layered", [True, False], ids=["layered", "one_pass"])
+def test_nodes_of_one_mesh_in_part_and_as_a_whole(new_renderer, layered):
+    """The nearest is at the edge of the picture, so that it is sent in part, the others as a whole."""
+    need_equal_pixels()
+    scene = cc.Scene(background=(0, 0, 0, 1))
+    mesh, material = sheet(60), cc.BasicMaterial(color="orange")
+    for place in ((1.9, 1.2, 1), (0, 0, -1), (0.3, 0.2, -2), (-2, -1.3, 0.8)):
+        scene.add(mesh, material, position=place)
+    turn = [0]
+
+    def change():
+        turn[0] += 1
+        scene.background = (0, 0, 0.01 * turn[0], 1)
+
+    share = follow(
+        new_renderer(layered=layered),
+        new_renderer(layered=layered),
+        lambda renderer, scene: renderer.render(scene, camera_ahead(), (90, 60)),
+        scene,
+        change,
+        ["color"],
+    )
+    assert 0.1 < share < 0.5
+
+
 SHADE = "vec3 shade(Surface s) { return abs(s.normal) * 0.5 + vec3(0.1, 0.2, 0.3); }"
 COUNT = "vec3 shade(Surface s) { return vec3(float(gl_PrimitiveID % 7), 1.0, 3.0) / 7.0; }"
 WAVE = "void vertex(inout Vertex v) { v.position.z += 0.1 * sin(9.0 * v.position.x); }"
@@ -311,7 +340,7 @@ SOURCES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("material, in_parts", SOURCES.values(), ids=SOURCES)
+@pytest.mark.parametrize(("material", "in_parts"), SOURCES.values(), ids=SOURCES)
 def test_users_sources(new_renderer, material, in_parts):
     need_equal_pixels()
     rng = np.random.default_rng(10)

@@ -11,7 +11,7 @@ namespace {
 
 // Measured: docs/adr/0033-static-geometry.md.
 constexpr std::size_t fewest_triangles = 2'000;
-constexpr double most_share = 0.7;
+constexpr double most_share = 0.5;
 /// What is taken for wasted while it is not known: a box that is partly in view says little.
 constexpr double assumed_waste = 0.5;
 
@@ -35,8 +35,8 @@ std::optional<IndexRange> TrianglePicker::pick(const NodeSnapshot& node, const G
                                                const glm::ivec2& size) {
     if (!is_parted(node)) return std::nullopt;
     const PartFrustum part = Culling(view).part_frustum(node, rect, size.x, size.y);
-    const Overlap overlap = part.frustum.overlap(node.bounds.center(), 0.5 * node.bounds.extent(),
-                                                 part.error);
+    const Overlap overlap =
+        part.frustum.overlap(node.bounds.center(), 0.5 * node.bounds.extent(), part.error);
     if (overlap == Overlap::all) return std::nullopt;
     const std::vector<glm::uvec3>& triangles = *node.mesh->triangles();
     const auto all = static_cast<double>(triangles.size());
