@@ -517,7 +517,7 @@ MUTATIONS = [
         STATIC,
     ),
     Mutation(
-        "static geometry: triangles in the order of their groups",
+        "static geometry: other triangles than those that were found",
         "triangle_picker.cpp",
         "const std::uint32_t triangle = clusters.order()[i];",
         "const std::uint32_t triangle = i;",

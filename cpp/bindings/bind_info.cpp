@@ -32,8 +32,9 @@ void bind_stats(py::module_& m) {
         .def_readonly("triangles_skipped", &Stats::triangles_skipped,
                       "int: triangles of drawn meshes that were not sent, since they lie outside "
                       "of the part of the picture that was drawn; counted once for each view.\n\n"
-                      "A mesh of 2,000 triangles or more is drawn in part where only a part of it "
-                      "shows in what changed, or in the picture. The picture has the same bytes.")
+                      "A large mesh (in software one of 2,000 triangles, on a GPU of 100,000) is "
+                      "drawn in part where only a part of it shows in what changed, or in the "
+                      "picture. The picture has the same bytes.")
         .def_readonly("probes_updated", &Stats::probes_updated,
                       "int: probes of which at least one face was drawn.")
         .def_readonly("textures_updated", &Stats::textures_updated,

@@ -9,16 +9,13 @@
 namespace cubecam {
 namespace {
 
-// Measured: docs/adr/0033-static-geometry.md.
-constexpr std::size_t fewest_triangles = 2'000;
-constexpr double most_share = 0.5;
 /// What is taken for wasted while it is not known: a box that is partly in view says little.
 constexpr double assumed_waste = 0.5;
 
 constexpr std::size_t bits = 64;
 
-bool is_parted(const NodeSnapshot& node) {
-    if (node.unbounded || node.mesh->triangles()->size() < fewest_triangles) return false;
+bool is_parted(const NodeSnapshot& node, const PartCosts& costs) {
+    if (node.unbounded || node.mesh->triangles()->size() < costs.fewest_triangles) return false;
     const MaterialTraits& traits = node.material.value.traits();
     return !traits.user_code || !traits.user_code->counts_triangles;
 }
@@ -33,7 +30,8 @@ double displacement_of(const NodeSnapshot& node) {
 std::optional<IndexRange> TrianglePicker::pick(const NodeSnapshot& node, const GpuMesh& mesh,
                                                const View& view, const Rect& rect,
                                                const glm::ivec2& size) {
-    if (!is_parted(node)) return std::nullopt;
+    const PartCosts& costs = cache_->part_costs();
+    if (!is_parted(node, costs)) return std::nullopt;
     const PartFrustum part = Culling(view).part_frustum(node, rect, size.x, size.y);
     const Overlap overlap =
         part.frustum.overlap(node.bounds.center(), 0.5 * node.bounds.extent(), part.error);
@@ -43,7 +41,7 @@ std::optional<IndexRange> TrianglePicker::pick(const NodeSnapshot& node, const G
     const TriangleClusters* clusters = cache_->clusters(*node.mesh, assumed_waste * all);
     if (clusters == nullptr) return std::nullopt;
     ranges_.clear();
-    const auto most = static_cast<std::size_t>(most_share * all);
+    const auto most = static_cast<std::size_t>(costs.most_share * all);
     const std::size_t count =
         clusters->find(part.frustum, displacement_of(node), part.error, most, ranges_);
     if (count > most) return std::nullopt;

@@ -23,7 +23,11 @@ namespace cubecam {
 namespace {
 
 constexpr int texels_of_a_part = 1 << 20;
-constexpr double cost_of_clusters = 3.0;  // docs/adr/0033-static-geometry.md
+
+// docs/adr/0033-static-geometry.md has what was measured. A GPU takes a triangle in less than a
+// tenth of the time that picking one takes, so that only small parts of large meshes pay.
+constexpr PartCosts software_costs{2'000, 0.5, 3.0};
+constexpr PartCosts hardware_costs{100'000, 0.02, 500.0};
 
 struct TextureFormat {
     GLenum internal;
@@ -254,6 +258,10 @@ const GpuMesh& GpuCache::mesh(const MeshData& mesh) {
     return held;
 }
 
+const PartCosts& GpuCache::part_costs() const {
+    return context_->software() ? software_costs : hardware_costs;
+}
+
 const TriangleClusters* GpuCache::clusters(const MeshData& mesh, double wasted) {
     GpuMesh* held = meshes_.find(mesh.identity());
     if (held == nullptr) return nullptr;
@@ -264,7 +272,9 @@ const TriangleClusters* GpuCache::clusters(const MeshData& mesh, double wasted) 
     if (clusters.made) return clusters.made->finite() ? clusters.made.get() : nullptr;
     const auto triangles = static_cast<double>(mesh.triangles()->size());
     clusters.wasted += wasted;
-    if (clusters.first == calls_ || clusters.wasted < cost_of_clusters * triangles) return nullptr;
+    if (clusters.first == calls_ || clusters.wasted < part_costs().making * triangles) {
+        return nullptr;
+    }
     const double bytes = triangles * static_cast<double>(TriangleClusters::bytes_of_making);
     if (bytes > static_cast<double>(small_allocation) && bytes > 0.5 * memory_left().bytes) {
         clusters.wasted = 0.0;  // it looks again later

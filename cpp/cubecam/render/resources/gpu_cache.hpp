@@ -84,6 +84,13 @@ struct GpuMesh {
     Clusters clusters;
 };
 
+/// When sending a part of a mesh costs less than sending all of it.
+struct PartCosts {
+    std::size_t fewest_triangles;  ///< meshes with fewer are always sent as a whole
+    double most_share;             ///< a greater share of a mesh is not worth picking
+    double making;                 ///< making TriangleClusters costs as much as so many sendings
+};
+
 struct GpuTexture {
     gl::Texture texture;
     bool mipmaps = false;
@@ -105,8 +112,10 @@ public:
     /// mesh must have one state: other data of the same mesh overwrite the copy that was returned
     /// before.
     const GpuMesh& mesh(const MeshData& mesh);
+    /// Of this driver.
+    const PartCosts& part_costs() const;
     /// The triangles of a mesh in groups; null: they are not made yet. Making them costs as much as
-    /// sending the mesh `cost_of_clusters` times, so they are made once so much was sent for
+    /// sending the mesh PartCosts::making times, so they are made once so much was sent for
     /// nothing, which is at most twice what the best choice would have cost (A. Karlin et al.,
     /// "Competitive Snoopy Caching", Algorithmica 3, 1988); and not in the first call that sees
     /// these positions, since a mesh may have others in each call.
