@@ -538,7 +538,7 @@ MUTATIONS = [
         STATIC,
     ),
     Mutation(
-        "grading: a blur does not go beyond what changed",
+        "grading: an effect does not go beyond what changed",
         "post_process_pass.cpp",
         "post_process.effects.empty() ? changed : all, stats);",
         "changed, stats);",

@@ -227,9 +227,12 @@ def test_copies(renderer):
     assert effect.uniforms["k"] == 3
 
 
-@pytest.mark.parametrize("effects", [[], [cc.ImageEffect(BLUR)]], ids=["none", "a blur"])
+SHIFT = "vec4 effect(vec2 uv) { return frame_pixel(ivec2(gl_FragCoord.xy) + ivec2(25, -15)); }"
+
+
+@pytest.mark.parametrize("effects", [[], [cc.ImageEffect(SHIFT)]], ids=["none", "a shift"])
 def test_a_small_change_is_graded_where_it_shows(new_renderer, effects):
-    """Without effects only changed rectangles get their tone curve; a blur carries a change beyond them."""
+    """Without effects only changed rectangles get their tone curve; effects carry a change beyond them."""
     live, scratch = new_renderer(), new_renderer(cache_bytes=0)
     scene = some_scene()
     box = scene.nodes[-1]
