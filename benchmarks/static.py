@@ -130,6 +130,7 @@ def kinds() -> dict[str, tuple[cc.Mesh | None, Draw]]:
         "triangles in a random order": (mixed, frame_of()),
         "a tone curve and sRGB": (rows, frame_of(tonemap="aces", encode="srgb")),
         "distance, id and normal": (rows, frame_of(outputs=OUTPUTS)),
+        "4 samples": (rows, frame_of(samples=4)),
         "a frame of 1024 x 1024": (rows, frame_of(1024)),
         "a capture of 6 x 256 x 256": (rows, cube_of()),
         "without the terrain": (None, frame_of()),

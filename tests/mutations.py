@@ -538,6 +538,13 @@ MUTATIONS = [
         STATIC,
     ),
     Mutation(
+        "samples: only the first rectangle is drawn",
+        "drawn_picture.cpp",
+        "for (const Rect& rect : rects) all = all.united(rect);",
+        "",
+        INCREMENTAL,
+    ),
+    Mutation(
         "grading: an effect does not go beyond what changed",
         "post_process_pass.cpp",
         "post_process.effects.empty() ? changed : all, stats);",

@@ -111,7 +111,7 @@ def camera_ahead():
     return cc.PerspectiveCamera(fov=35, position=(0, 0, 5), target=(0, 0, 0))
 
 
-#: The options of a frame, and the least share of triangles that are not sent. A picture with samples is drawn whole.
+#: The options of a frame, and the least share of triangles that are not sent.
 FRAMES = {
     "plain": ({}, 0.3),
     "outputs": ({"outputs": OUTPUTS}, 0.3),
@@ -119,7 +119,7 @@ FRAMES = {
     "painter": ({"depth_format": None}, 0.3),
     "stencil": ({"depth_format": "depth24_stencil8", "outputs": ("stencil", "depth")}, 0.3),
     "graded": ({"tonemap": "aces", "encode": "srgb"}, 0.3),
-    "samples": ({"samples": 4, "outputs": ("id",)}, 0),
+    "samples": ({"samples": 4, "outputs": ("id",)}, 0),  # one rectangle round both movers
 }
 
 
@@ -367,7 +367,7 @@ def test_users_sources(new_renderer, material, in_parts):
     check_share(share, 0.3 if in_parts else 0, 1 if in_parts else 0)
 
 
-def flat_view(side=100):
+def flat_view(side=100, **options):
     """A sheet that fills a picture of 200 x 200 pixels, each pixel 0.01 wide, and a small box before it."""
     scene = cc.Scene()
     sheet_node = scene.add(sheet(side, np.random.default_rng(1)), cc.BasicMaterial(color="green"))
@@ -376,7 +376,7 @@ def flat_view(side=100):
 
     def draw(renderer, x):
         box.position = (x, 0.2, 1)
-        return renderer.render(scene, view, (200, 200))
+        return renderer.render(scene, view, (200, 200), **options)
 
     return sheet_node, draw
 
@@ -399,6 +399,19 @@ def test_the_stats_say_what_was_left_out(fresh_renderer):
     assert f"triangles_skipped={stats.triangles_skipped}" in repr(stats)
     draw(fresh_renderer, 0.05 * (step % 2))
     assert fresh_renderer.stats.triangles == fresh_renderer.stats.triangles_skipped == 0
+
+
+@pytest.mark.llvmpipe("a GPU gets all triangles of a mesh of this size")
+def test_pictures_with_samples_are_drawn_in_a_rectangle(new_renderer):
+    live, scratch = new_renderer(), new_renderer(cache_bytes=0)
+    _, draw = flat_view(samples=4, format="rgba16f", outputs=("id",))
+    for step in range(WARM_UP):
+        draw(live, 0.013 * step)
+    got, want = draw(live, 0.2), draw(scratch, 0.2)
+    assert live.stats.triangles < 20_000 / 4
+    assert scratch.stats.triangles == 20_000 + 12
+    assert_identical(got.color, want.color, "color")
+    assert_identical(got.id, want.id, "id")
 
 
 def test_a_small_mesh_is_sent_as_a_whole(fresh_renderer):
