@@ -30,6 +30,7 @@ SKY_RAYS = ("tests/gl/test_sky_rays.py",)
 ALPHA = ("tests/gl/test_alpha.py",)
 SIDES = ("tests/gl/test_sides.py",)
 STATS = ("tests/gl/test_stats.py",)
+STATIC = ("tests/gl/test_static_geometry.py",)
 PROBES = ("tests/gl/test_probes.py",)
 BOUNCES = ("tests/gl/test_bounces.py",)
 FORMATS = ("tests/gl/test_formats.py",)
@@ -472,6 +473,83 @@ MUTATIONS = [
         "const glm::dvec2 ndc = glm::dvec2(clip) / clip.w;",
         "const glm::dvec2 ndc = glm::dvec2(-clip.x, clip.y) / clip.w;",
         ("tests/gl/test_damage.py",),
+    ),
+    Mutation(
+        "static geometry: the rectangle mirrored",
+        "screen_bounds.cpp",
+        "to_part[3][axis] = -center[axis] / half[axis];",
+        "to_part[3][axis] = center[axis] / half[axis];",
+        STATIC,
+    ),
+    Mutation(
+        "static geometry: new positions forgotten",
+        "gpu_cache.cpp",
+        "if (clusters.revision != mesh.position_stream().revision) {",
+        "if (clusters.revision == 0) {",
+        STATIC,
+    ),
+    Mutation(
+        "static geometry: a mesh is parted in the first call that sees it",
+        "gpu_cache.cpp",
+        "if (clusters.first == calls_ || clusters.wasted",
+        "if (clusters.wasted",
+        STATIC,
+    ),
+    Mutation(
+        "static geometry: nodes that show other parts are drawn together",
+        "surface_calls.cpp",
+        "!to.back().indices && !indices &&",
+        "",
+        STATIC,
+    ),
+    Mutation(
+        "static geometry: a count of triangles goes unseen",
+        "user_shader.cpp",
+        '"gl_PrimitiveID", "##"',
+        '"##"',
+        STATIC,
+    ),
+    Mutation(
+        "static geometry: vertices that a source moves are looked for where they were",
+        "triangle_picker.cpp",
+        "traits.user_code->displacement.value_or(0.0F) : 0.0;",
+        "0.0 : 0.0;",
+        STATIC,
+    ),
+    Mutation(
+        "static geometry: other triangles than those that were found",
+        "triangle_picker.cpp",
+        "const std::uint32_t triangle = clusters.order()[i];",
+        "const std::uint32_t triangle = i;",
+        STATIC,
+    ),
+    Mutation(
+        "static geometry: what was left out is not told",
+        "surface_pass.cpp",
+        "stats.triangles_skipped +=",
+        "stats.triangles +=",
+        STATIC,
+    ),
+    Mutation(
+        "static geometry: a shadow map reads the wrong nodes",
+        "shadow_pass.cpp",
+        "first - static_cast<GLuint>(count));",
+        "first);",
+        STATIC,
+    ),
+    Mutation(
+        "samples: only the first rectangle is drawn",
+        "drawn_picture.cpp",
+        "for (const Rect& rect : rects) all = all.united(rect);",
+        "",
+        INCREMENTAL,
+    ),
+    Mutation(
+        "grading: an effect does not go beyond what changed",
+        "post_process_pass.cpp",
+        "post_process.effects.empty() ? changed : all, stats);",
+        "changed, stats);",
+        ("tests/gl/test_effects.py",),
     ),
     Mutation(
         "key: the eye forgotten",

@@ -29,6 +29,12 @@ void bind_stats(py::module_& m) {
         .def_readonly("draw_calls", &Stats::draw_calls, "int")
         .def_readonly("triangles", &Stats::triangles,
                       "int: triangles sent to the GPU, counted once for each view.")
+        .def_readonly("triangles_skipped", &Stats::triangles_skipped,
+                      "int: triangles of drawn meshes that were not sent, since they lie outside "
+                      "of the part of the picture that was drawn; counted once for each view.\n\n"
+                      "A large mesh (in software one of 2,000 triangles, on a GPU of 100,000) is "
+                      "drawn in part where only a part of it shows in what changed, or in the "
+                      "picture. The picture has the same bytes.")
         .def_readonly("probes_updated", &Stats::probes_updated,
                       "int: probes of which at least one face was drawn.")
         .def_readonly("textures_updated", &Stats::textures_updated,
@@ -60,6 +66,7 @@ void bind_stats(py::module_& m) {
                    " views_skipped=" + std::to_string(s.views_skipped) +
                    " draw_calls=" + std::to_string(s.draw_calls) +
                    " triangles=" + std::to_string(s.triangles) +
+                   " triangles_skipped=" + std::to_string(s.triangles_skipped) +
                    " probes_updated=" + std::to_string(s.probes_updated) +
                    " textures_updated=" + std::to_string(s.textures_updated) +
                    " shadow_views_drawn=" + std::to_string(s.shadow_views_drawn) +

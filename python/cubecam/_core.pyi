@@ -8929,6 +8929,14 @@ class Stats:
         """
 
     @property
+    def triangles_skipped(self) -> int:
+        """
+        int: triangles of drawn meshes that were not sent, since they lie outside of the part of the picture that was drawn; counted once for each view.
+
+        A large mesh (in software one of 2,000 triangles, on a GPU of 100,000) is drawn in part where only a part of it shows in what changed, or in the picture. The picture has the same bytes.
+        """
+
+    @property
     def views_drawn(self) -> int:
         """
         int: pictures drawn: frames, faces of captures, faces of probes, textures.

@@ -225,3 +225,19 @@ def test_copies(renderer):
         )
         copied.uniforms["k"] = 0
     assert effect.uniforms["k"] == 3
+
+
+SHIFT = "vec4 effect(vec2 uv) { return frame_pixel(ivec2(gl_FragCoord.xy) + ivec2(25, -15)); }"
+
+
+@pytest.mark.parametrize("effects", [[], [cc.ImageEffect(SHIFT)]], ids=["none", "a shift"])
+def test_a_small_change_is_graded_where_it_shows(new_renderer, effects):
+    """Without effects only changed rectangles get their tone curve; effects carry a change beyond them."""
+    live, scratch = new_renderer(), new_renderer(cache_bytes=0)
+    scene = some_scene()
+    box = scene.nodes[-1]
+    options = {"size": (90, 60), "tonemap": "aces", "encode": "srgb", "format": "rgba8"}
+    for step in range(5):
+        box.position = (0.6 - 0.1 * step, -0.4, 0.2)
+        got, want = (draw(one, scene, effects, **options) for one in (live, scratch))
+        assert_identical(got.color, want.color, f"step {step}")

@@ -140,6 +140,9 @@ struct UserCode {
 
     bool uses_uvs1 = false;  ///< whether `fragment` reads the second set of uvs
 
+    /// Whether `fragment` may read the number of its triangle, which counts those of the draw call.
+    bool counts_triangles = false;
+
     bool moves_vertices() const { return !vertex->text.empty(); }
 };
 

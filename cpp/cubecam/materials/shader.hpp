@@ -70,7 +70,13 @@ struct Shader {
     VertexColors uses_vertex_colors() const { return VertexColors::color; }
     bool uses_tangents() const { return mentions(fragment.text, "tangent"); }
     UserCode user_code() const {
-        return {&fragment, &vertex, &inputs, displacement, 0, mentions(fragment.text, "uv1")};
+        return {&fragment,
+                &vertex,
+                &inputs,
+                displacement,
+                0,
+                mentions(fragment.text, "uv1"),
+                may_count_triangles(fragment.text)};
     }
 
     bool operator==(const Shader&) const = default;

@@ -43,4 +43,11 @@ bool mentions(std::string_view text, std::string_view word) {
     return false;
 }
 
+bool may_count_triangles(std::string_view text) {
+    for (const char* part : {"gl_PrimitiveID", "##", "\\\n", "\\\r"}) {
+        if (text.find(part) != std::string_view::npos) return true;
+    }
+    return false;
+}
+
 }  // namespace cubecam

@@ -46,4 +46,7 @@ void check(const ShaderInputs& inputs);
 /// Whether GLSL text contains `word` as a whole word, also in a comment.
 bool mentions(std::string_view text, std::string_view word);
 
+/// Whether GLSL text may read gl_PrimitiveID: it has that word, or what could put it together.
+bool may_count_triangles(std::string_view text);
+
 }  // namespace cubecam

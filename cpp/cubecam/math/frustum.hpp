@@ -7,6 +7,9 @@
 
 namespace cubecam {
 
+/// How much of a box lies in a space.
+enum class Overlap { none, some, all };
+
 /// The six planes that bound the visible space of a matrix to GL's clip space.
 class Frustum {
 public:
@@ -44,6 +47,21 @@ public:
             if (farthest[i] < -(off[static_cast<int>(i / 2)] + off.w)) return false;
         }
         return true;
+    }
+
+    /// How much of a box can be visible; `error` is that of may_show(). "All" is exact but for
+    /// rounding, "none" is certain, and NaN is "some".
+    Overlap overlap(const glm::dvec3& center, const glm::dvec3& half,
+                    const glm::dvec4& error) const {
+        bool all = true;
+        for (std::size_t i = 0; i < planes_.size(); ++i) {
+            const Plane& plane = planes_[i];
+            const double middle = glm::dot(plane.normal, center) + plane.offset;
+            const double reach = glm::dot(plane.reach, half);
+            if (middle + reach < -(error[static_cast<int>(i / 2)] + error.w)) return Overlap::none;
+            all = all && middle - reach >= 0.0;
+        }
+        return all ? Overlap::all : Overlap::some;
     }
 
 private:

@@ -510,6 +510,7 @@ void add(Stats& sum, const Stats& more) {
     sum.views_skipped += more.views_skipped;
     sum.draw_calls += more.draw_calls;
     sum.triangles += more.triangles;
+    sum.triangles_skipped += more.triangles_skipped;
     sum.probes_updated += more.probes_updated;
     sum.textures_updated += more.textures_updated;
     sum.shadow_views_drawn += more.shadow_views_drawn;

@@ -33,6 +33,7 @@ void add_light(Key& key, const LightValue& light) {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most_pixels_of_a_band = gl::Pace::chunk / 2;
+constexpr int side_of_block = 4;  // llvmpipe tests so many pixels at once
 
 /// The rectangle in bands of rows, of about so many pixels each.
 std::vector<Rect> bands(const Rect& rect, double most) {
@@ -43,6 +44,16 @@ std::vector<Rect> bands(const Rect& rect, double most) {
         made.push_back({rect.x0, y, rect.x1, std::min(y + rows, rect.y1)});
     }
     return made;
+}
+
+/// One rectangle of whole blocks of pixels round all of some.
+std::vector<Rect> in_blocks(const std::vector<Rect>& rects, const Rect& whole) {
+    if (rects.empty()) return rects;
+    Rect all = rects.front();
+    for (const Rect& rect : rects) all = all.united(rect);
+    const auto down = [](int side) { return side / side_of_block * side_of_block; };
+    const auto up = [down](int side) { return down(side + side_of_block - 1); };
+    return {Rect{down(all.x0), down(all.y0), up(all.x1), up(all.y1)}.intersected(whole)};
 }
 
 /// The additional key of nodes that receive shadows.
@@ -147,11 +158,14 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
     for (std::size_t i = 0; i < views.size(); ++i) {
         const std::size_t v = (first + i) % views.size();
         if (!budget || count < budget->views) damaged[v] = damage(target.keys[v], keys[v], whole);
-        // llvmpipe (Mesa 22.3) also writes samples beyond the edge of the scissor, and rounds a
-        // pixel of rgb565 otherwise if the scissor cuts the block of pixels in which it lies.
-        const bool indivisible =
-            target.multisampled() || target.description().format == Format::rgb565;
-        if (indivisible && !damaged[v].empty()) damaged[v] = {whole};
+        if (target.description().format == Format::rgb565) {
+            // llvmpipe (Mesa 22.3) rounds a pixel otherwise if the scissor cuts its block.
+            if (!damaged[v].empty()) damaged[v] = {whole};
+        } else if (target.multisampled()) {
+            // It also writes samples beyond the edge of the scissor. Those are in no pixel that is
+            // resolved now, and are drawn again before one of them is: hence one rectangle.
+            damaged[v] = in_blocks(damaged[v], whole);
+        }
         if (damaged[v].empty()) {
             ++stats.views_skipped;
             continue;
@@ -226,9 +240,12 @@ void DrawnPicture::draw_damaged(Target& target, const std::vector<std::vector<Re
         if (damaged[v].empty()) continue;
         poll_interrupts();
         const auto layer = static_cast<int>(first_layer + v);
-        if (target.multisampled()) resolve(target, layer, bands(whole, most_pixels));
+        if (target.multisampled()) {
+            for (const Rect& rect : damaged[v]) resolve(target, layer, bands(rect, most_pixels));
+        }
         if (target.description().post_processed) {
-            gpu.post_process.draw(post_process, textures, target, layer, gpu.context, stats);
+            gpu.post_process.draw(post_process, textures, target, layer, damaged[v], gpu.context,
+                                  stats);
         }
     }
     gl::check_gl(gpu.context.gl(), "finishing a picture");

@@ -18,7 +18,10 @@ void add_grading(Key& key, const PostProcess& post_process) {
 
 void PostProcessPass::draw(const PostProcess& post_process,
                            const std::vector<std::vector<BoundTexture>>& textures, Target& target,
-                           int layer, const gl::Context& context, Stats& stats) {
+                           int layer, std::span<const Rect> changed, const gl::Context& context,
+                           Stats& stats) {
+    const Rect whole{0, 0, target.description().width, target.description().height};
+    const std::span<const Rect> all(&whole, 1);
     const Place place{target.description().width, target.description().height, layer, context};
     set_full_screen_state(*gl_);
     gl_->Viewport(0, 0, target.description().width, target.description().height);
@@ -29,14 +32,15 @@ void PostProcessPass::draw(const PostProcess& post_process,
         const GLuint framebuffer = target.scratch_pass(to).one(layer);
         UserProgram& program = program_of(effect, textures[i], framebuffer, target);
         program.use(effect.inputs, textures[i]);
-        draw_quad(framebuffer, source, program.program(), place, stats);
+        draw_quad(framebuffer, source, program.program(), place, all, stats);
         source = target.scratch(to).id();
     }
     const gl::Program& grade =
         programs_->grade(post_process.tonemap, post_process.encode, post_process.decode);
     grade.use();
     grade.set("u_gain", post_process.gain);
-    draw_quad(target.post_processed_pass().one(layer), source, grade, place, stats);
+    draw_quad(target.post_processed_pass().one(layer), source, grade, place,
+              post_process.effects.empty() ? changed : all, stats);
 }
 
 UserProgram& PostProcessPass::program_of(const EffectValue& effect,
@@ -54,7 +58,7 @@ UserProgram& PostProcessPass::program_of(const EffectValue& effect,
 }
 
 void PostProcessPass::draw_quad(GLuint framebuffer, GLuint source, const gl::Program& program,
-                                const Place& place, Stats& stats) {
+                                const Place& place, std::span<const Rect> parts, Stats& stats) {
     // llvmpipe waits for the whole source in the first call that looks it up, without looking for
     // signals.
     if (place.context.software()) place.context.pace().finish(*gl_);
@@ -62,19 +66,21 @@ void PostProcessPass::draw_quad(GLuint framebuffer, GLuint source, const gl::Pro
     program.use();
     program.set("u_layer", place.layer);
     gl_->BindTextureUnit(0, source);
-    const int most = static_cast<int>(gl::Pace::chunk / 2 / place.width);
-    const int rows = place.context.software() ? std::max(1, most) : place.height;
     // The scissor test is on since the scene was drawn, and its rectangle is the whole picture.
     const struct WholeScissor {
         const GladGLContext& gl;
         const Place& place;
         ~WholeScissor() { gl.Scissor(0, 0, place.width, place.height); }
     } at_end{*gl_, place};
-    for (int y = 0; y < place.height; y += rows) {
-        const int height = std::min(rows, place.height - y);
-        gl_->Scissor(0, y, place.width, height);
-        draw_full_screen(*gl_, *cache_, {}, stats);
-        place.context.pace().submitted(*gl_, static_cast<double>(place.width) * height);
+    for (const Rect& part : parts) {
+        const int most = static_cast<int>(gl::Pace::chunk / 2 / part.width());
+        const int rows = place.context.software() ? std::max(1, most) : part.height();
+        for (int y = part.y0; y < part.y1; y += rows) {
+            const int height = std::min(rows, part.y1 - y);
+            gl_->Scissor(part.x0, y, part.width(), height);
+            draw_full_screen(*gl_, *cache_, {}, stats);
+            place.context.pace().submitted(*gl_, static_cast<double>(part.width()) * height);
+        }
     }
 }
 

@@ -9,6 +9,7 @@
 #include "cubecam/render/resources/stats.hpp"
 #include "cubecam/render/resources/target.hpp"
 
+#include <span>
 #include <vector>
 
 namespace cubecam {
@@ -37,11 +38,13 @@ public:
     PostProcessPass(const GladGLContext& gl, GpuCache& cache, Programs& programs)
         : gl_(&gl), cache_(&cache), programs_(&programs) {}
 
-    /// Processes one layer. `textures` are the textures that each effect looks up. Draws large
-    /// pictures in bands of rows in software, so that they can be interrupted.
+    /// Processes one layer. `textures` are the textures that each effect looks up; `changed` are
+    /// the parts of the colour that are not those of the last time. Without effects the others need
+    /// no processing: a pixel of the result depends on the same pixel of the colour alone. Draws
+    /// large pictures in bands of rows in software, so that they can be interrupted.
     void draw(const PostProcess& post_process,
               const std::vector<std::vector<BoundTexture>>& textures, Target& target, int layer,
-              const gl::Context& context, Stats& stats);
+              std::span<const Rect> changed, const gl::Context& context, Stats& stats);
 
 private:
     /// The program of an effect, tried in the state in which draw_quad() will draw.
@@ -52,7 +55,7 @@ private:
         const gl::Context& context;
     };
     void draw_quad(GLuint framebuffer, GLuint source, const gl::Program& program,
-                   const Place& place, Stats& stats);
+                   const Place& place, std::span<const Rect> parts, Stats& stats);
 
     const GladGLContext* gl_;
     GpuCache* cache_;

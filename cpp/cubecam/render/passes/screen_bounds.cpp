@@ -11,6 +11,9 @@ namespace {
 /// a fraction of a pixel.
 constexpr double margin = 2.0;
 
+/// The same for a rectangle of whole pixels, in whose pixels centers and samples lie well inside.
+constexpr double margin_of_part = 0.25;
+
 /// An upper bound for the rounding of matrices and of a product of four terms, relative to the sum
 /// of the terms' absolute values (N. Higham, "Accuracy and Stability of Numerical Algorithms",
 /// section 3.1).
@@ -82,6 +85,26 @@ Rect Culling::screen_bounds(const NodeSnapshot& node, int width, int height) con
     const glm::dvec2 last = (high * 0.5 + 0.5) * size + margin;
     return {clamped(std::floor(first.x), width), clamped(std::floor(first.y), height),
             clamped(std::ceil(last.x), width), clamped(std::ceil(last.y), height)};
+}
+
+PartFrustum Culling::part_frustum(const NodeSnapshot& node, const Rect& rect, int width,
+                                  int height) const {
+    const glm::dvec2 size(width, height);
+    const glm::dvec2 low = 2.0 * (glm::dvec2(rect.x0, rect.y0) - margin_of_part) / size - 1.0;
+    const glm::dvec2 high = 2.0 * (glm::dvec2(rect.x1, rect.y1) + margin_of_part) / size - 1.0;
+    const glm::dvec2 center = 0.5 * (low + high);
+    const glm::dvec2 half = 0.5 * (high - low);
+    // The matrix that makes the rectangle the whole of clip space, of w and its own axes.
+    glm::dmat4 to_part(1.0);
+    for (int axis = 0; axis < 2; ++axis) {
+        to_part[axis][axis] = 1.0 / half[axis];
+        to_part[3][axis] = -center[axis] / half[axis];
+    }
+    glm::dvec4 error = clip_error(node);
+    for (int axis = 0; axis < 2; ++axis) {
+        error[axis] = (error[axis] + std::abs(center[axis]) * error.w) / half[axis];
+    }
+    return {Frustum(to_part * view_projection_ * node.world), error};
 }
 
 }  // namespace cubecam

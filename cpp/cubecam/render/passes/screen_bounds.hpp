@@ -12,6 +12,12 @@
 
 namespace cubecam {
 
+/// What a part of a picture shows, in the space of a node's mesh.
+struct PartFrustum {
+    Frustum frustum;
+    glm::dvec4 error;  ///< see Frustum::may_show
+};
+
 /// Finds which nodes a view can see, and where. The results allow for the largest error of float
 /// arithmetic on the GPU, which is not small if large numbers cancel, as for a mesh that lies a
 /// million units from its own origin.
@@ -25,6 +31,10 @@ public:
     /// Returns a rectangle that contains every pixel that a node can touch in a picture of `width`
     /// x `height`. As in GL, y grows upwards.
     Rect screen_bounds(const NodeSnapshot& node, int width, int height) const;
+
+    /// The part of a node's mesh that can touch the pixels of a rectangle of such a picture.
+    PartFrustum part_frustum(const NodeSnapshot& node, const Rect& rect, int width,
+                             int height) const;
 
 private:
     /// The largest error of a vertex in clip space.

@@ -45,16 +45,18 @@ MaskBlock make_mask_block(const AlphaMask& mask, const MapPlacing& placing) {
 }
 
 /// The casters that one call draws: nodes of one mesh, which differ only in their matrices. Those
-/// with holes also have one material.
+/// with holes also have one material. A node of which the map shows a part is alone.
 struct Casters {
     const NodeSnapshot* first;
+    const GpuMesh* mesh;
+    std::optional<IndexRange> indices;  ///< none: those of the whole mesh
     std::vector<ViewRecord> nodes;
 };
 
 }  // namespace
 
 ShadowPass::ShadowPass(const gl::Context& context, GpuCache& cache, Programs& programs)
-    : context_(&context), gl_(&context.gl()), cache_(&cache), programs_(&programs) {
+    : context_(&context), gl_(&context.gl()), cache_(&cache), programs_(&programs), picker_(cache) {
     largest_ = gl::largest_side(context.limits(), false).pixels;
     GLint units = 0;
     gl_->GetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &units);
@@ -106,6 +108,7 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
     std::map<std::pair<const MeshData*, std::uint64_t>, std::size_t> places;
     std::vector<const NodeSnapshot*> moved;
     const View& from = input.view.views[layer];
+    picker_.start();
     input.plan.for_each([&](const PlannedNode& planned) {
         const auto visibilities = input.plan.visible_in(planned);
         const bool seen =
@@ -117,18 +120,24 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
             moved.push_back(&node);
             return;
         }
-        const std::uint64_t material = has_holes(node) ? node.material.revision : 0;
-        const auto [place, added] = places.try_emplace({node.mesh.get(), material}, casters.size());
-        if (added) casters.push_back({&node, {}});
+        const GpuMesh& mesh = cache_->mesh(*node.mesh);
+        const std::optional<IndexRange> indices =
+            picker_.pick(node, mesh, from, {0, 0, map.size, map.size}, {map.size, map.size});
+        std::size_t place = casters.size();
+        if (!indices) {
+            const std::uint64_t material = has_holes(node) ? node.material.revision : 0;
+            place = places.try_emplace({node.mesh.get(), material}, place).first->second;
+        }
+        if (place == casters.size()) casters.push_back({&node, &mesh, indices, {}});
         const glm::dmat4 matrix = reverse_depth(from.view_projection * node.world);
-        casters[place->second].nodes.push_back(
-            make_view_record(from, matrix, from.position, layer));
+        casters[place].nodes.push_back(make_view_record(from, matrix, from.position, layer));
     });
     std::vector<ViewRecord> instances;
     for (const Casters& some : casters) {
         instances.insert(instances.end(), some.nodes.begin(), some.nodes.end());
     }
     instances_ = gl::create_buffer(*gl_, instances.size() * sizeof(ViewRecord), instances.data());
+    if (!picker_.bytes().empty()) indices_ = gl::create_buffer(*gl_, std::span(picker_.bytes()));
 
     gl_->BindFramebuffer(GL_FRAMEBUFFER, map.layers->one(static_cast<int>(layer)));
     gl_->Viewport(0, 0, map.size, map.size);
@@ -146,17 +155,23 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
     GLuint first = 0;
     for (const Casters& some : casters) {
         poll_interrupts();
-        const GpuMesh& mesh = cache_->mesh(*some.first->mesh);
+        const GpuMesh& mesh = *some.mesh;
         const auto count = static_cast<GLsizei>(some.nodes.size());
+        const IndexRange indices = some.indices.value_or(IndexRange{0, mesh.index_count});
+        first += static_cast<GLuint>(count);
+        stats.triangles_skipped += std::int64_t{(mesh.index_count - indices.count) / 3} * count;
+        if (indices.count == 0) continue;
         bind_program(*some.first, input);
         gl_->VertexArrayVertexBuffer(mesh.array.id(), vertex_buffer::records, instances_.id(), 0,
                                      sizeof(ViewRecord));
         gl_->BindVertexArray(mesh.array.id());
-        gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, mesh.index_type,
-                                               nullptr, count, first);
-        first += static_cast<GLuint>(count);
+        if (some.indices) gl_->VertexArrayElementBuffer(mesh.array.id(), indices_.id());
+        gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, indices.count, mesh.index_type,
+                                               reinterpret_cast<const void*>(indices.offset), count,
+                                               first - static_cast<GLuint>(count));
+        if (some.indices) gl_->VertexArrayElementBuffer(mesh.array.id(), mesh.indices.id());
         ++stats.draw_calls;
-        stats.triangles += std::int64_t{mesh.index_count / 3} * count;
+        stats.triangles += std::int64_t{indices.count / 3} * count;
     }
     for (const NodeSnapshot* node : moved) draw_moved(*node, input, layer, stats);
     context_->pace().submitted(*gl_, static_cast<double>(map.size) * map.size);

@@ -5,6 +5,7 @@
 #include "cubecam/render/passes/draw_plan.hpp"
 #include "cubecam/render/passes/programs.hpp"
 #include "cubecam/render/passes/shadow_block.hpp"
+#include "cubecam/render/passes/triangle_picker.hpp"
 #include "cubecam/render/resources/bound_texture.hpp"
 #include "cubecam/render/resources/gpu_cache.hpp"
 #include "cubecam/render/resources/stats.hpp"
@@ -65,7 +66,8 @@ private:
     Programs* programs_;
     int largest_;
     std::size_t most_;
-    gl::Buffer instances_, block_;
+    TrianglePicker picker_;
+    gl::Buffer instances_, block_, indices_;
 };
 
 }  // namespace cubecam

@@ -113,8 +113,9 @@ std::size_t count_calls(const SurfaceItems& items, std::size_t regions) {
 
 SurfaceCallBuilder::SurfaceCallBuilder(const SurfaceInput& input, const SurfaceItems& items,
                                        const glm::ivec2& size, const glm::vec3& ambient,
-                                       std::size_t alignment)
-    : input_(input), items_(items), size_(size), ambient_(ambient), alignment_(alignment) {
+                                       std::size_t alignment, TrianglePicker& picker)
+    : input_(input), items_(items), size_(size), ambient_(ambient), alignment_(alignment),
+      picker_(picker) {
     const glm::dvec3& origin = input.origin();
     for (const Region& region : input.regions) {
         const View& view = input.views[region.view];
@@ -173,16 +174,24 @@ SurfaceCall SurfaceCallBuilder::alone(const SurfaceItem& item) {
             append_blend(item)};
 }
 
-void SurfaceCallBuilder::add_together(const SurfaceItem& item, std::vector<SurfaceCall>& to) {
+std::optional<IndexRange> SurfaceCallBuilder::pick(const SurfaceItem& item, std::size_t region) {
+    const Region& part = input_.regions[region];
+    return picker_.pick(*item.node, *item.mesh, input_.views[part.view], part.rect, size_);
+}
+
+void SurfaceCallBuilder::add_together(const SurfaceItem& item, std::optional<IndexRange> indices,
+                                      std::vector<SurfaceCall>& to) {
     const auto place = static_cast<GLuint>(node_records_.size());
     node_records_.push_back(make_node_record(*item.node, input_.origin(), ambient_));
-    if (!to.empty() && !to.back().node_block && join(*to.back().item, item)) {
+    // Nodes of one call draw the same triangles.
+    if (!to.empty() && !to.back().node_block && !to.back().indices && !indices &&
+        join(*to.back().item, item)) {
         ++to.back().count;
         return;
     }
     to.push_back({&item, place, 1, std::nullopt,
                   has_flat_constants(*item.node) ? std::nullopt : append_constants(*item.node),
-                  append_environment(item), append_blend(item)});
+                  append_environment(item), append_blend(item), indices});
 }
 
 void SurfaceCallBuilder::add_sky(std::size_t first_region, std::size_t count, SurfaceCalls& to) {
@@ -207,11 +216,27 @@ SurfaceCalls SurfaceCallBuilder::layered() {
     SurfaceCalls calls;
     const auto add = [this](const SurfaceItem& item, std::vector<SurfaceCall>& to) {
         SurfaceCall call = alone(item);
-        call.count = static_cast<GLsizei>(item.region_count);
+        std::vector<SurfaceCall> parts;  // views that show a part of the mesh, one by one
         for (std::uint32_t i = 0; i < item.region_count; ++i) {
-            view_records_.push_back(views_[items_.regions[item.first_region + i]]);
+            const std::uint32_t region = items_.regions[item.first_region + i];
+            const std::optional<IndexRange> indices = pick(item, region);
+            if (indices) {
+                SurfaceCall part = call;
+                part.first = region;  // until it is known which record it reads
+                part.count = 1;
+                part.indices = indices;
+                parts.push_back(std::move(part));
+            } else {
+                view_records_.push_back(views_[region]);
+                ++call.count;
+            }
         }
-        to.push_back(call);
+        if (call.count > 0) to.push_back(std::move(call));
+        for (SurfaceCall& part : parts) {
+            view_records_.push_back(views_[part.first]);
+            part.first = static_cast<GLuint>(view_records_.size() - 1);
+            to.push_back(std::move(part));
+        }
     };
     for (const SurfaceItem& item : items_.opaque) add(item, calls.opaque);
     for (const SurfaceItem& item : items_.transparent) add(item, calls.transparent);
@@ -225,9 +250,11 @@ SurfaceCalls SurfaceCallBuilder::of_region(std::size_t region) {
     calls.view_block = append(&block, sizeof(block));
     const auto add = [&](const SurfaceItem& item, std::vector<SurfaceCall>& to) {
         if (!shows_in(items_, item, region)) return;
-        if (!is_drawn_alone(*item.node)) return add_together(item, to);
+        const std::optional<IndexRange> indices = pick(item, region);
+        if (!is_drawn_alone(*item.node)) return add_together(item, indices, to);
         SurfaceCall call = alone(item);
         call.count = 1;
+        call.indices = indices;
         view_records_.push_back(views_[region]);
         to.push_back(call);
     };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cubecam/render/passes/surface_input.hpp"
+#include "cubecam/render/passes/triangle_picker.hpp"
 #include "cubecam/render/resources/gpu_cache.hpp"
 #include "cubecam/render/resources/node_record.hpp"
 #include "cubecam/render/resources/view_record.hpp"
@@ -55,6 +56,7 @@ struct SurfaceCall {
     std::optional<GLintptr> environment;  ///< the block of the environment, if the shader reads it
     /// The block of the influences, then those of the other environments; empty: there is one.
     std::vector<GLintptr> blend;
+    std::optional<IndexRange> indices = std::nullopt;  ///< none: those of the whole mesh
 };
 
 /// The draw calls for one region, or for all regions at once.
@@ -71,9 +73,10 @@ struct SurfaceCalls {
 class SurfaceCallBuilder {
 public:
     /// `size` is that of the pictures in pixels; `ambient` is the light that falls on everything;
-    /// offsets of uniform blocks are multiples of `alignment`.
+    /// offsets of uniform blocks are multiples of `alignment`; `picker` gets the indices of meshes
+    /// that are drawn in part.
     SurfaceCallBuilder(const SurfaceInput& input, const SurfaceItems& items, const glm::ivec2& size,
-                       const glm::vec3& ambient, std::size_t alignment);
+                       const glm::vec3& ambient, std::size_t alignment, TrianglePicker& picker);
 
     /// Makes the calls for all regions at once.
     SurfaceCalls layered();
@@ -91,7 +94,9 @@ private:
     std::optional<GLintptr> append_environment(const SurfaceItem& item);
     std::vector<GLintptr> append_blend(const SurfaceItem& item);
     SurfaceCall alone(const SurfaceItem& item);
-    void add_together(const SurfaceItem& item, std::vector<SurfaceCall>& to);
+    std::optional<IndexRange> pick(const SurfaceItem& item, std::size_t region);
+    void add_together(const SurfaceItem& item, std::optional<IndexRange> indices,
+                      std::vector<SurfaceCall>& to);
     void add_sky(std::size_t first_region, std::size_t count, SurfaceCalls& to);
 
     const SurfaceInput& input_;
@@ -99,6 +104,7 @@ private:
     const glm::ivec2 size_;
     const glm::vec3 ambient_;
     const std::size_t alignment_;
+    TrianglePicker& picker_;
     std::vector<ViewRecord> views_;  ///< of each region
     std::vector<ViewRecord> view_records_;
     std::vector<NodeRecord> node_records_;

@@ -33,7 +33,7 @@ bool mirrored(const View& view) { return glm::determinant(view.view_projection) 
 
 SurfacePass::SurfacePass(const gl::Context& context, GpuCache& cache, Layering layering)
     : context_(&context), gl_(&context.gl()), cache_(&cache),
-      programs_(context.gl(), layering != Layering::never), layering_(layering),
+      programs_(context.gl(), layering != Layering::never), layering_(layering), picker_(cache),
       black_(gl::create_texture_cube(*gl_, GL_RGBA8, 1)) {
     const std::uint8_t black[6 * 4] = {};
     gl_->TextureSubImage3D(black_.id(), 0, 0, 0, 0, 1, 1, 6, GL_RGBA, GL_UNSIGNED_BYTE, black);
@@ -101,9 +101,10 @@ void SurfacePass::draw(const SurfaceInput& input, Target& target, Stats& stats) 
     behind_ = description.shape.has_faces() ? BehindLookup::cube : BehindLookup::flat;
 
     const SurfaceItems items = find_items(input, *cache_);
+    picker_.start();
     SurfaceCallBuilder builder(
         input, items, {description.width, description.height}, lights_.ambient,
-        static_cast<std::size_t>(context_->limits().uniform_buffer_offset_alignment));
+        static_cast<std::size_t>(context_->limits().uniform_buffer_offset_alignment), picker_);
     std::vector<SurfaceCalls> calls;  // one for each region, or one for all
     if (use_layers(input, items, whole)) {
         calls.push_back(builder.layered());
@@ -115,6 +116,7 @@ void SurfacePass::draw(const SurfaceInput& input, Target& target, Stats& stats) 
     view_records_ = gl::create_buffer(*gl_, std::span(builder.view_records()));
     node_records_ = gl::create_buffer(*gl_, std::span(builder.node_records()));
     blocks_ = gl::create_buffer(*gl_, std::span(builder.blocks()));
+    if (!picker_.bytes().empty()) indices_ = gl::create_buffer(*gl_, std::span(picker_.bytes()));
 
     gl_->Viewport(0, 0, description.width, description.height);
     // The test is never disabled: the values of pixels may not depend on the rectangle, but they
@@ -456,6 +458,10 @@ void SurfacePass::draw_calls(std::span<const SurfaceCall> calls, bool mirror, bo
         poll_interrupts();
         const NodeSnapshot& node = *call.item->node;
         const GpuMesh& mesh = *call.item->mesh;
+        const IndexRange indices = call.indices.value_or(IndexRange{0, mesh.index_count});
+        stats.triangles_skipped +=
+            std::int64_t{(mesh.index_count - indices.count) / 3} * call.count;
+        if (indices.count == 0) continue;
         const bool instanced = !call.node_block;
         const SurfaceVariant variant = variant_of(*call.item, instanced, outputs);
         const GLuint array = instanced ? mesh.instanced.id() : mesh.array.id();
@@ -506,10 +512,12 @@ void SurfacePass::draw_calls(std::span<const SurfaceCall> calls, bool mirror, bo
         }
         bind_textures(*call.item, variant);
         const auto draw = [&] {
-            gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, mesh.index_type,
-                                                   nullptr, call.count, call.first);
+            gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, indices.count, mesh.index_type,
+                                                   reinterpret_cast<const void*>(indices.offset),
+                                                   call.count, call.first);
             ++stats.draw_calls;
         };
+        if (call.indices) gl_->VertexArrayElementBuffer(array, indices_.id());
         if (node.backs_first()) {
             gl_->Enable(GL_CULL_FACE);
             gl_->CullFace(GL_FRONT);
@@ -517,7 +525,8 @@ void SurfacePass::draw_calls(std::span<const SurfaceCall> calls, bool mirror, bo
             gl_->CullFace(GL_BACK);
         }
         draw();
-        stats.triangles += std::int64_t{mesh.index_count / 3} * call.count;
+        if (call.indices) gl_->VertexArrayElementBuffer(array, mesh.indices.id());
+        stats.triangles += std::int64_t{indices.count / 3} * call.count;
     }
 }
 

@@ -75,7 +75,9 @@ private:
     Layering layering_;
     gl::Texture black_;       ///< a cube of one texel, reflected if there is no environment
     gl::Texture brdf_table_;  ///< made when it is first needed
-    gl::Buffer view_records_, node_records_, blocks_, lights_block_, shadows_, clip_, grid_block_;
+    TrianglePicker picker_;
+    gl::Buffer view_records_, node_records_, blocks_, indices_, lights_block_, shadows_, clip_,
+        grid_block_;
     ShaderLights lights_;
     DrawConditions pass_;                        ///< what all draw calls of a pass have in common
     DrawConditions conditions_;                  ///< of the present draw call

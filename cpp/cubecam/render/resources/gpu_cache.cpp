@@ -1,6 +1,7 @@
 #include "cubecam/render/resources/gpu_cache.hpp"
 
 #include "cubecam/core/interrupts.hpp"
+#include "cubecam/core/memory.hpp"
 #include "cubecam/gl/large_texture.hpp"
 #include "cubecam/image/flip.hpp"
 #include "cubecam/image/pixels.hpp"
@@ -22,6 +23,11 @@ namespace cubecam {
 namespace {
 
 constexpr int texels_of_a_part = 1 << 20;
+
+// docs/adr/0033-static-geometry.md has what was measured. A GPU takes a triangle in less than a
+// tenth of the time that picking one takes, so that only small parts of large meshes pay.
+constexpr PartCosts software_costs{2'000, 0.5, 3.0};
+constexpr PartCosts hardware_costs{100'000, 0.02, 500.0};
 
 struct TextureFormat {
     GLenum internal;
@@ -252,6 +258,32 @@ const GpuMesh& GpuCache::mesh(const MeshData& mesh) {
     return held;
 }
 
+const PartCosts& GpuCache::part_costs() const {
+    return context_->software() ? software_costs : hardware_costs;
+}
+
+const TriangleClusters* GpuCache::clusters(const MeshData& mesh, double wasted) {
+    GpuMesh* held = meshes_.find(mesh.identity());
+    if (held == nullptr) return nullptr;
+    GpuMesh::Clusters& clusters = held->clusters;
+    if (clusters.revision != mesh.position_stream().revision) {
+        clusters = {mesh.position_stream().revision, calls_, 0.0, nullptr};
+    }
+    if (clusters.made) return clusters.made->finite() ? clusters.made.get() : nullptr;
+    const auto triangles = static_cast<double>(mesh.triangles()->size());
+    clusters.wasted += wasted;
+    if (clusters.first == calls_ || clusters.wasted < part_costs().making * triangles) {
+        return nullptr;
+    }
+    const double bytes = triangles * static_cast<double>(TriangleClusters::bytes_of_making);
+    if (bytes > static_cast<double>(small_allocation) && bytes > 0.5 * memory_left().bytes) {
+        clusters.wasted = 0.0;  // it looks again later
+        return nullptr;
+    }
+    clusters.made = std::make_unique<const TriangleClusters>(*mesh.positions(), *mesh.triangles());
+    return this->clusters(mesh, 0.0);
+}
+
 const GpuTexture& GpuCache::image(const std::shared_ptr<const Image>& image, bool colors) {
     const bool decoded = colors && image->decodes();
     return (decoded ? decoded_images_ : images_).get(image, [&] {
@@ -342,6 +374,7 @@ const GpuProbeGrid& GpuCache::probe_grid(const ProbeGridSnapshot& grid) {
 }
 
 void GpuCache::sweep() {
+    ++calls_;
     meshes_.sweep();
     images_.sweep();
     decoded_images_.sweep();

@@ -2,6 +2,7 @@
 
 #include "cubecam/cubemap/cubemap.hpp"
 #include "cubecam/geometry/mesh.hpp"
+#include "cubecam/geometry/triangle_clusters.hpp"
 #include "cubecam/gl/context.hpp"
 #include "cubecam/gl/objects.hpp"
 #include "cubecam/image/image.hpp"
@@ -73,6 +74,21 @@ struct GpuMesh {
     GpuStream colors;
     GpuStream tangents;
     GpuStream uvs1;
+    // The parts of the mesh, made when they are worth it (GpuCache::clusters).
+    struct Clusters {
+        std::uint64_t revision = 0;  ///< of the positions
+        std::uint64_t first = 0;     ///< the renderer's call in which these positions came
+        double wasted = 0.0;         ///< triangles that calls sent for nothing
+        std::unique_ptr<const TriangleClusters> made;
+    };
+    Clusters clusters;
+};
+
+/// When sending a part of a mesh costs less than sending all of it.
+struct PartCosts {
+    std::size_t fewest_triangles;  ///< meshes with fewer are always sent as a whole
+    double most_share;             ///< a greater share of a mesh is not worth picking
+    double making;                 ///< making TriangleClusters costs as much as so many sendings
 };
 
 struct GpuTexture {
@@ -96,6 +112,15 @@ public:
     /// mesh must have one state: other data of the same mesh overwrite the copy that was returned
     /// before.
     const GpuMesh& mesh(const MeshData& mesh);
+    /// Of this driver.
+    const PartCosts& part_costs() const;
+    /// The triangles of a mesh in groups; null: they are not made yet. Making them costs as much as
+    /// sending the mesh PartCosts::making times, so they are made once so much was sent for
+    /// nothing, which is at most twice what the best choice would have cost (A. Karlin et al.,
+    /// "Competitive Snoopy Caching", Algorithmica 3, 1988); and not in the first call that sees
+    /// these positions, since a mesh may have others in each call.
+    /// @param wasted triangles that this draw call sends for nothing if the result is null.
+    const TriangleClusters* clusters(const MeshData& mesh, double wasted);
     /// @throws std::invalid_argument that names the driver's limit, for a larger picture; cube()
     /// does the same.
     /// @param colors whether a map of colours looks it up, which gets decoded numbers if the image
@@ -109,10 +134,11 @@ public:
     /// Makes the textures again where the grid changed since the last time.
     const GpuProbeGrid& probe_grid(const ProbeGridSnapshot& grid);
 
+    /// Each call of the renderer begins with it.
+    void sweep();
+
     /// A vertex array with only the attributes of a view, for a skybox.
     const gl::VertexArray& views_only() const { return views_only_; }
-
-    void sweep();
 
 private:
     struct GpuCube {
@@ -125,6 +151,7 @@ private:
 
     const gl::Context* context_;
     const GladGLContext* gl_;
+    std::uint64_t calls_ = 0;  ///< of the renderer
     gl::VertexArray views_only_;
     WeakCache<const MeshIdentity, GpuMesh> meshes_;
     WeakCache<const Image, GpuTexture> images_;

@@ -11,7 +11,9 @@ struct Stats {
         0;  ///< pictures drawn: frames, faces of captures and probes, textures
     std::int64_t views_skipped = 0;  ///< pictures that were still valid
     std::int64_t draw_calls = 0;
-    std::int64_t triangles = 0;           ///< sent to the GPU, counted for each view
+    std::int64_t triangles = 0;  ///< sent to the GPU, counted for each view
+    /// Triangles of drawn meshes that were not sent, since they lie outside of what was drawn.
+    std::int64_t triangles_skipped = 0;
     std::int64_t probes_updated = 0;      ///< probes of which at least one face was drawn
     std::int64_t textures_updated = 0;    ///< render textures that were drawn
     std::int64_t shadow_views_drawn = 0;  ///< layers of shadow maps; a point light has six
