@@ -1,32 +1,18 @@
 #include "cubecam/cubemap/box_kernels.hpp"
 
-#include <cstring>
+#include "cubecam/cubemap/clones.hpp"
 
-// One object file holds both versions; the loader takes the one that the processor can run. This
-// needs GCC, x86 and glibc; elsewhere there is only the plain version, with the same results bit
-// for bit. (Sanitizers are not ready yet when the loader chooses.)
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__GLIBC__) &&       \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define CUBECAM_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define CUBECAM_CLONES
-#endif
+#include <algorithm>
+#include <cstring>
 
 namespace cubecam {
 
 namespace {
 
-/// Two texels side by side. Functions take them by reference: without AVX, passing them by value
-/// has no fixed ABI.
+/// Two and four texels side by side. Functions take them by reference: without AVX, passing them by
+/// value has no fixed ABI.
 typedef float Float8 __attribute__((vector_size(32)));
-
-[[gnu::always_inline]] inline void join(const Float4& a, const Float4& b, Float8& both) {
-    both = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-
-[[gnu::always_inline]] inline void join(float a, float b, Float8& both) {
-    join(Float4{a, a, a, a}, Float4{b, b, b, b}, both);
-}
+typedef float Float16 __attribute__((vector_size(64)));
 
 [[gnu::always_inline]] inline Float4 texel_at(const char* address) {
     Float4 texel;  // `address` is aligned for a float only
@@ -34,22 +20,56 @@ typedef float Float8 __attribute__((vector_size(32)));
     return texel;
 }
 
-/// The weights of two taps.
-struct Weights {
-    Float8 near;
-    Float8 last;
-
-    [[gnu::always_inline]] Weights(const BoundTap& a, const BoundTap& b) {
-        join(a.near_weight, b.near_weight, near);
-        join(a.last_weight, b.last_weight, last);
-    }
+/// The addresses of four texels.
+struct Four {
+    const char* at[4];
 };
 
-/// apply_tap's arithmetic on two texels.
+[[gnu::always_inline]] inline void load(const Four& from, std::ptrdiff_t offset, Float16& texels) {
+    const Float8 low = __builtin_shufflevector(
+        texel_at(from.at[0] + offset), texel_at(from.at[1] + offset), 0, 1, 2, 3, 4, 5, 6, 7);
+    const Float8 high = __builtin_shufflevector(
+        texel_at(from.at[2] + offset), texel_at(from.at[3] + offset), 0, 1, 2, 3, 4, 5, 6, 7);
+    texels = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14,
+                                     15);
+}
+
+[[gnu::always_inline]] inline Four moved(const Four& from, const std::ptrdiff_t (&by)[4]) {
+    return {{from.at[0] + by[0], from.at[1] + by[1], from.at[2] + by[2], from.at[3] + by[3]}};
+}
+
+[[gnu::always_inline]] inline void store(const Float16& texels, Float4* to) {
+    std::memcpy(static_cast<void*>(to), &texels, sizeof texels);
+}
+
+/// Weights of four taps, each in four lanes.
+struct Weights {
+    Float16 near;
+    Float16 last;
+};
+
+[[gnu::always_inline]] inline void load(const BoxTap* taps, Weights& weights) {
+    static_assert(sizeof(BoxTap) == 16 && offsetof(BoxTap, near) == 8 &&
+                  offsetof(BoxTap, last) == 12);
+    Float16 all;
+    std::memcpy(&all, taps, sizeof all);
+    weights.near = __builtin_shufflevector(all, all, 2, 2, 2, 2, 6, 6, 6, 6, 10, 10, 10, 10, 14, 14,
+                                           14, 14);
+    weights.last = __builtin_shufflevector(all, all, 3, 3, 3, 3, 7, 7, 7, 7, 11, 11, 11, 11, 15, 15,
+                                           15, 15);
+}
+
+/// Four numbers, each in four lanes.
+[[gnu::always_inline]] inline void spread(const float* numbers, Float16& lanes) {
+    const Float4 four = texel_at(reinterpret_cast<const char*>(numbers));
+    lanes = __builtin_shufflevector(four, four, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
+}
+
+/// apply_tap's arithmetic on four texels.
 template <bool near>
-[[gnu::always_inline]] inline void weigh(const Float8& first, const Float8& second,
-                                         const Float8& third, const Weights& weights,
-                                         Float8& result) {
+[[gnu::always_inline]] inline void weigh(const Float16& first, const Float16& second,
+                                         const Float16& third, const Weights& weights,
+                                         Float16& result) {
     if constexpr (near) {
         result = first + ((second - first) * weights.near + (third - first) * weights.last);
     } else {
@@ -57,102 +77,222 @@ template <bool near>
     }
 }
 
+/// Filters texels `step` bytes apart; the last ones lie at `last`.
 template <bool near>
-[[gnu::always_inline]] inline void pair_tap(const char* a, const char* b, std::ptrdiff_t step,
-                                            std::ptrdiff_t last_a, std::ptrdiff_t last_b,
-                                            const Weights& weights, Float8& result) {
-    Float8 first;
-    Float8 second;
-    Float8 third;
-    join(texel_at(a), texel_at(b), first);
-    join(texel_at(a + step), texel_at(b + step), second);
+[[gnu::always_inline]] inline void filter(const Four& from, std::ptrdiff_t step, const Four& last,
+                                          std::ptrdiff_t offset, const Weights& weights,
+                                          Float16& result) {
+    Float16 first;
+    Float16 second;
+    Float16 third;
+    load(from, offset, first);
+    load(from, offset + step, second);
     if constexpr (near) {
-        join(texel_at(a + last_a), texel_at(b + last_b), third);
+        load(last, offset, third);
     } else {
         third = second;
     }
     weigh<near>(first, second, third, weights, result);
 }
 
-/// Calls body(i, j, result) for pairs of texels. If one texel is left at the end, the call has it
-/// as both i and j.
-template <typename Body>
-[[gnu::always_inline]] inline void for_pairs(std::size_t count, Float4* to, const Body& body) {
-    Float8 result;
-    std::size_t i = 0;
-    for (; i + 1 < count; i += 2) {
-        body(i, i + 1, result);
-        std::memcpy(static_cast<void*>(to + i), &result, sizeof result);
-    }
-    if (i < count) {
-        body(i, i, result);
-        std::memcpy(static_cast<void*>(to + i), &result, sizeof(Float4));
+/// One texel by a tap of any width.
+[[gnu::always_inline]] inline Float4 filter_far(const BoxTap& tap, const char* from,
+                                                std::ptrdiff_t step) {
+    return apply_tap<Reach::far>(
+        tap, [=](int i) __attribute__((always_inline)) { return texel_at(from + i * step); });
+}
+
+template <bool near>
+[[gnu::always_inline]] inline void row_near(const char* row, const RowTaps& taps, Float4* to) {
+    for (std::size_t i = 0; i < taps.count; i += 4) {
+        Four first;
+        Four last;
+        for (std::size_t k = 0; k < 4; ++k) {
+            first.at[k] = row + taps.first_at[i + k];
+            last.at[k] = first.at[k] + taps.last_at[i + k];
+        }
+        Weights weights;
+        std::memcpy(&weights.near, taps.near + 4 * i, sizeof weights.near);
+        std::memcpy(&weights.last, taps.last + 4 * i, sizeof weights.last);
+        Float16 result;
+        filter<near>(first, taps.texel, last, 0, weights, result);
+        store(result, to + i);
     }
 }
 
 template <bool near>
-[[gnu::always_inline]] inline void filter(const void* base, std::ptrdiff_t step,
-                                          const BoundTap* taps, std::size_t count, Float4* to) {
-    const char* from = static_cast<const char*>(base);
-    for_pairs(count, to,
-              [=](std::size_t i, std::size_t j, Float8& result) __attribute__((always_inline)) {
-                  const BoundTap& a = taps[i];
-                  const BoundTap& b = taps[j];
-                  pair_tap<near>(from + a.first, from + b.first, step, a.last, b.last,
-                                 Weights(a, b), result);
-              });
-}
-
-template <bool near>
-[[gnu::always_inline]] inline void filter_boxes(const Float4* base, std::ptrdiff_t stride,
-                                                const BoundTap* down, const BoundTap* across,
+[[gnu::always_inline]] inline void columns_near(const char* rows, const BoxTap* taps,
                                                 std::size_t count, Float4* to) {
-    const char* from = reinterpret_cast<const char*>(base);
-    constexpr std::ptrdiff_t next = sizeof(Float4);
-    for_pairs(count, to,
-              [=](std::size_t i, std::size_t j, Float8& result) __attribute__((always_inline)) {
-                  const char* a = from + down[i].first + across[i].first;
-                  const char* b = from + down[j].first + across[j].first;
-                  const std::ptrdiff_t last_a = across[i].last;
-                  const std::ptrdiff_t last_b = across[j].last;
-                  const Weights weights(across[i], across[j]);
-                  Float8 first;
-                  Float8 second;
-                  Float8 third;
-                  pair_tap<near>(a, b, next, last_a, last_b, weights, first);
-                  pair_tap<near>(a + stride, b + stride, next, last_a, last_b, weights, second);
-                  if constexpr (near) {
-                      pair_tap<near>(a + down[i].last, b + down[j].last, next, last_a, last_b,
-                                     weights, third);
-                  } else {
-                      third = second;
-                  }
-                  weigh<near>(first, second, third, Weights(down[i], down[j]), result);
-              });
+    constexpr std::ptrdiff_t texel = sizeof(Float4);
+    constexpr std::ptrdiff_t stride = tile_size * texel;
+    for (std::size_t i = 0; i < count; i += 4, taps += 4, rows += 4 * texel) {
+        Four first;
+        Four last;
+        for (std::ptrdiff_t k = 0; k < 4; ++k) {
+            first.at[k] = rows + taps[k].first * stride + k * texel;
+            last.at[k] = first.at[k] + taps[k].inner * stride + stride;
+        }
+        Weights weights;
+        load(taps, weights);
+        Float16 result;
+        filter<near>(first, stride, last, 0, weights, result);
+        store(result, to + i);
+    }
+}
+
+template <bool near>
+[[gnu::always_inline]] inline void boxes_near(const TexelGrid& texels, const BoxTap* down,
+                                              const BoxTap* across, std::size_t count, Float4* to) {
+    const char* base = reinterpret_cast<const char*>(texels.base);
+    const std::ptrdiff_t row = texels.row;
+    const std::ptrdiff_t texel = texels.texel;
+    for (std::size_t i = 0; i < count; i += 4, down += 4, across += 4) {
+        Four first;
+        std::ptrdiff_t right[4];
+        std::ptrdiff_t below[4];
+        for (std::size_t k = 0; k < 4; ++k) {
+            first.at[k] = base + down[k].first * row + across[k].first * texel;
+            right[k] = across[k].inner * texel + texel;
+            below[k] = down[k].inner * row + row;
+        }
+        const Four last = moved(first, right);
+        Weights weights;
+        load(across, weights);
+        Float16 upper;
+        Float16 middle;
+        Float16 lower;
+        filter<near>(first, texel, last, 0, weights, upper);
+        filter<near>(first, texel, last, row, weights, middle);
+        if constexpr (near) {
+            filter<near>(moved(first, below), texel, moved(last, below), 0, weights, lower);
+        } else {
+            lower = middle;
+        }
+        load(down, weights);
+        Float16 result;
+        weigh<near>(upper, middle, lower, weights, result);
+        store(result, to + i);
+    }
+}
+
+/// Four bilinear lookups.
+[[gnu::always_inline]] inline void bilinear(const TexelGrid& texels, const BilinearTaps& taps,
+                                            std::size_t i, Float16& result) {
+    const char* base = reinterpret_cast<const char*>(texels.base);
+    Four first;
+    for (std::size_t k = 0; k < 4; ++k) first.at[k] = base + taps.at[i + k];
+    Float16 right;
+    Float16 bottom;
+    spread(taps.right + i, right);
+    spread(taps.bottom + i, bottom);
+    Float16 a;
+    Float16 b;
+    load(first, 0, a);
+    load(first, texels.texel, b);
+    const Float16 upper = a + (b - a) * right;
+    load(first, texels.row, a);
+    load(first, texels.row + texels.texel, b);
+    const Float16 lower = a + (b - a) * right;
+    result = upper + (lower - upper) * bottom;
 }
 
 }  // namespace
 
-CUBECAM_CLONES void filter_linear(const void* base, std::ptrdiff_t step, const BoundTap* taps,
-                                  std::size_t count, Float4* to) {
-    filter<false>(base, step, taps, count, to);
+void RowTaps::set(const TapList& list, std::ptrdiff_t texel_bytes) {
+    taps = &list;
+    texel = texel_bytes;
+    count = (list.size() + 3) / 4 * 4;
+    const auto step = static_cast<std::int32_t>(texel_bytes);
+    for (std::size_t i = 0; i < count; ++i) {
+        const BoxTap& tap = *list.data(i);
+        first_at[i] = tap.first * step;
+        last_at[i] = (tap.inner + 1) * step;
+        for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) {
+            near[k] = tap.near;
+            last[k] = tap.last;
+        }
+    }
 }
 
-CUBECAM_CLONES void filter_near(const void* base, std::ptrdiff_t step, const BoundTap* taps,
-                                std::size_t count, Float4* to) {
-    filter<true>(base, step, taps, count, to);
+CUBECAM_CLONES void filter_row(const float* row, const RowTaps& taps, Float4* to) {
+    const char* from = reinterpret_cast<const char*>(row);
+    const Reach reach = taps.taps->reach();
+    if (reach == Reach::linear) return row_near<false>(from, taps, to);
+    if (reach == Reach::near) return row_near<true>(from, taps, to);
+    for (std::size_t i = 0; i < taps.count; ++i) {
+        to[i] = filter_far(*taps.taps->data(i), from + taps.first_at[i], taps.texel);
+    }
 }
 
-CUBECAM_CLONES void filter_boxes_linear(const Float4* base, std::ptrdiff_t stride,
-                                        const BoundTap* down, const BoundTap* across,
-                                        std::size_t count, Float4* to) {
-    filter_boxes<false>(base, stride, down, across, count, to);
+CUBECAM_CLONES void filter_columns(Reach reach, const Float4* rows, const BoxTap* taps,
+                                   std::size_t count, Float4* to) {
+    const char* from = reinterpret_cast<const char*>(rows);
+    if (reach == Reach::linear) return columns_near<false>(from, taps, count, to);
+    if (reach == Reach::near) return columns_near<true>(from, taps, count, to);
+    constexpr std::ptrdiff_t stride = tile_size * sizeof(Float4);
+    for (std::size_t i = 0; i < count; ++i, from += sizeof(Float4)) {
+        to[i] = filter_far(taps[i], from + taps[i].first * stride, stride);
+    }
 }
 
-CUBECAM_CLONES void filter_boxes_near(const Float4* base, std::ptrdiff_t stride,
-                                      const BoundTap* down, const BoundTap* across,
-                                      std::size_t count, Float4* to) {
-    filter_boxes<true>(base, stride, down, across, count, to);
+CUBECAM_CLONES void filter_boxes(Reach reach, const TexelGrid& texels, const BoxTap* down,
+                                 const BoxTap* across, std::size_t count, Float4* to) {
+    if (reach == Reach::linear) return boxes_near<false>(texels, down, across, count, to);
+    if (reach == Reach::near) return boxes_near<true>(texels, down, across, count, to);
+    const char* base = reinterpret_cast<const char*>(texels.base);
+    for (std::size_t i = 0; i < count; ++i) {
+        const char* from = base + down[i].first * texels.row + across[i].first * texels.texel;
+        const BoxTap& tap = across[i];
+        to[i] = apply_tap<Reach::far>(down[i], [&](int k) __attribute__((always_inline)) {
+            return filter_far(tap, from + k * texels.row, texels.texel);
+        });
+    }
+}
+
+CUBECAM_CLONES void place_bilinear(const float* x, const float* z, float cosine, float sine,
+                                   const PolePlane& plane, BilinearTaps& taps) {
+    const PolePlane at = plane;
+    for (int i = 0; i < tile_size; ++i) {
+        const float turned_x = x[i] * cosine - z[i] * sine;
+        const float turned_z = z[i] * cosine + x[i] * sine;
+        const float column = turned_x * at.scale + at.middle;
+        const float row = at.turn * turned_z * at.scale + at.middle;
+        // Both are at least -1/2: after adding 1, rounding towards 0 is rounding down.
+        const int left = static_cast<int>(column + 1.0f) - 1;
+        const int upper = static_cast<int>(row + 1.0f) - 1;
+        taps.right[i] = column - static_cast<float>(left);
+        taps.bottom[i] = row - static_cast<float>(upper);
+        const int beyond = (turned_x > 1.0f) | (turned_x < -1.0f) | (turned_z > 1.0f) |
+                           (turned_z < -1.0f);
+        taps.outside[i] |= beyond;
+        // What lies beyond the square is looked up by the caller, and here anywhere in the grid.
+        const int in_column = std::min(std::max(left - at.column0, 0), at.columns - 2);
+        const int in_row = std::min(std::max(upper - at.row0, 0), at.rows - 2);
+        taps.at[i] = in_row * at.row + in_column * at.texel;
+    }
+}
+
+CUBECAM_CLONES void look_bilinear(const TexelGrid& texels, const BilinearTaps& taps,
+                                  std::size_t count, Float4* first) {
+    for (std::size_t i = 0; i < count; i += 4) {
+        Float16 found;
+        bilinear(texels, taps, i, found);
+        store(found, first + i);
+    }
+}
+
+CUBECAM_CLONES void add_bilinear(const TexelGrid& texels, const BilinearTaps& taps,
+                                 std::size_t count, const Float4* first, Float4* sum) {
+    for (std::size_t i = 0; i < count; i += 4) {
+        Float16 found;
+        Float16 one;
+        Float16 total;
+        bilinear(texels, taps, i, found);
+        std::memcpy(&one, first + i, sizeof one);
+        std::memcpy(&total, sum + i, sizeof total);
+        total += found - one;
+        store(total, sum + i);
+    }
 }
 
 }  // namespace cubecam

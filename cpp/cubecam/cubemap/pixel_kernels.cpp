@@ -1,0 +1,181 @@
+#include "cubecam/cubemap/pixel_kernels.hpp"
+
+#include "cubecam/cubemap/clones.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+namespace cubecam {
+
+namespace {
+
+constexpr std::size_t piece = 64;  ///< texels that are converted at a time
+
+[[gnu::always_inline]] inline bool finite(const float* numbers, std::size_t count) {
+    constexpr std::uint32_t exponent = 0x7f800000u;
+    std::uint32_t bad = 0;  // whole numbers and no branch, so that the compiler uses SIMD
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t bits = std::bit_cast<std::uint32_t>(numbers[i]) & exponent;
+        bad |= bits == exponent ? 1u : 0u;
+    }
+    return bad == 0;
+}
+
+/// Sixteen numbers. Functions take them by reference, as in box_kernels.cpp.
+typedef float Floats __attribute__((vector_size(64)));
+typedef std::uint32_t Words __attribute__((vector_size(64)));
+typedef std::int32_t Ints __attribute__((vector_size(64)));
+typedef std::uint16_t Halves __attribute__((vector_size(32)));
+typedef std::uint8_t Bytes __attribute__((vector_size(16)));
+constexpr std::size_t lane_count = 16;
+
+/// value / 255 as the division rounds it, without a division: 1/255 has parts of 9 and 24 bits. The
+/// product with the first part has no rounding error, and the sum is rounded once.
+[[gnu::always_inline]] inline void convert(const Bytes& from, Floats& to) {
+    constexpr float high = 0x1.01p-8f;
+    constexpr auto low = static_cast<float>(1.0 / 255.0 - 0x1.01p-8);
+    const Floats value = __builtin_convertvector(from, Floats);
+    to = value * high + value * low;
+}
+
+/// As half_to_float.
+[[gnu::always_inline]] inline void convert(const Halves& from, Floats& to) {
+    constexpr std::uint32_t exponent_mask = 0x7c00u << 13;
+    const Words half = __builtin_convertvector(from, Words);
+    Words bits = (half & 0x7fffu) << 13;
+    const Words exponent = bits & exponent_mask;
+    bits += (127u - 15u) << 23;
+    const Words special = bits + ((128u - 16u) << 23);
+    const Floats small = reinterpret_cast<Floats>(bits + (1u << 23)) - 0x1p-14f;
+    bits = exponent == exponent_mask ? special
+           : exponent == 0           ? reinterpret_cast<Words>(small)
+                                     : bits;
+    to = reinterpret_cast<Floats>(bits | (half & 0x8000u) << 16);
+}
+
+/// As float_to_unorm8.
+[[gnu::always_inline]] inline void convert(const Floats& from, Bytes& to) {
+    const Floats positive = from > 0.0f ? from : Floats{};  // NaN gives 0
+    const Floats one = Floats{} + 1.0f;
+    const Floats clamped = positive < 1.0f ? positive : one;
+    to = __builtin_convertvector(__builtin_convertvector(clamped * 255.0f + 0.5f, Ints), Bytes);
+}
+
+/// As float_to_half.
+[[gnu::always_inline]] inline void convert(const Floats& from, Halves& to) {
+    const Words all = reinterpret_cast<Words>(from);
+    const Words sign = all & 0x80000000u;
+    const Words bits = all ^ sign;
+    const Words nan = Words{} + 0x7e00u;
+    const Words infinity = Words{} + 0x7c00u;
+    const Words special = bits > 0x7f800000u ? nan : infinity;
+    const Words small = reinterpret_cast<Words>(reinterpret_cast<Floats>(bits) + 0.5f) -
+                        std::bit_cast<std::uint32_t>(0.5f);
+    const Words normal = (bits + ((15u - 127u) << 23) + 0xfffu + ((bits >> 13) & 1u)) >> 13;
+    const Words half = bits >= ((127u + 16u) << 23)  ? special
+                       : bits < ((127u - 14u) << 23) ? small
+                                                     : normal;
+    to = __builtin_convertvector(half | (sign >> 16), Halves);
+}
+
+template <typename From, typename To, typename Source, typename Target>
+[[gnu::always_inline]] inline void convert_row(const Source* from, std::size_t count, Target* to) {
+    static_assert(sizeof(From) == lane_count * sizeof(Source));
+    static_assert(sizeof(To) == lane_count * sizeof(Target));
+    From given{};
+    To made;
+    std::size_t i = 0;
+    for (; i + lane_count <= count; i += lane_count) {
+        std::memcpy(&given, from + i, sizeof given);
+        convert(given, made);
+        std::memcpy(to + i, &made, sizeof made);
+    }
+    if (i == count) return;
+    std::memcpy(&given, from + i, (count - i) * sizeof(Source));
+    convert(given, made);
+    std::memcpy(to + i, &made, (count - i) * sizeof(Target));
+}
+
+/// Writes the first lanes of texels as floats in order of memory, and notes in `bad` which lanes
+/// are not finite somewhere.
+template <int channels>
+[[gnu::always_inline]] inline void pack(const Float4* from, std::ptrdiff_t count, int step,
+                                        float* to, Float4& bad) {
+    if (step < 0) from += count - 1;
+    constexpr std::size_t bytes = channels * sizeof(float);
+    Float4 sum = {0, 0, 0, 0};  // of x - x, which is 0 or NaN
+    // All but the last may write over the beginning of the next one: a whole register is stored.
+    for (std::ptrdiff_t i = 1; i < count; ++i, from += step, to += channels) {
+        const Float4 texel = *from;
+        sum += texel - texel;
+        std::memcpy(to, &texel, channels == 3 ? sizeof texel : bytes);
+    }
+    const Float4 texel = *from;
+    sum += texel - texel;
+    std::memcpy(to, &texel, bytes);
+    bad += sum;
+}
+
+template <int channels>
+[[gnu::always_inline]] inline bool store(const Float4* from, std::size_t count, int step,
+                                         DType dtype, std::byte* to) {
+    Float4 bad = {0, 0, 0, 0};
+    if (dtype == DType::float32) {
+        float* first = reinterpret_cast<float*>(to);
+        if (step < 0) first -= (count - 1) * channels;
+        pack<channels>(from, static_cast<std::ptrdiff_t>(count), step, first, bad);
+    } else {
+        alignas(64) float line[piece * channels];
+        const std::size_t texel = channels * dtype_size(dtype);
+        for (std::size_t begin = 0; begin < count; begin += piece) {
+            const std::size_t length = std::min(piece, count - begin);
+            pack<channels>(from + begin, static_cast<std::ptrdiff_t>(length), step, line, bad);
+            std::byte* const first =
+                step > 0 ? to + begin * texel : to - (begin + length - 1) * texel;
+            if (dtype == DType::uint8) {
+                convert_row<Floats, Bytes>(line, length * channels,
+                                           reinterpret_cast<std::uint8_t*>(first));
+            } else {
+                convert_row<Floats, Halves>(line, length * channels,
+                                            reinterpret_cast<std::uint16_t*>(first));
+            }
+        }
+    }
+    bool good = true;
+    for (int c = 0; c < channels; ++c) good &= bad[c] == 0.0f;
+    return good;
+}
+
+}  // namespace
+
+CUBECAM_CLONES bool all_finite_row(const float* numbers, std::size_t count) {
+    return finite(numbers, count);
+}
+
+CUBECAM_CLONES bool row_to_floats(DType dtype, const std::byte* pixels, std::size_t count,
+                                  float* to) {
+    if (dtype == DType::uint8) {
+        convert_row<Bytes, Floats>(reinterpret_cast<const std::uint8_t*>(pixels), count, to);
+        return true;
+    }
+    if (dtype == DType::float16) {
+        convert_row<Halves, Floats>(reinterpret_cast<const std::uint16_t*>(pixels), count, to);
+    } else {
+        std::memcpy(to, pixels, count * sizeof(float));
+    }
+    return finite(to, count);
+}
+
+CUBECAM_CLONES bool store_texels(const Float4* from, std::size_t count, int channels, int step,
+                                 DType dtype, std::byte* to) {
+    switch (channels) {
+        case 1: return store<1>(from, count, step, dtype, to);
+        case 2: return store<2>(from, count, step, dtype, to);
+        case 3: return store<3>(from, count, step, dtype, to);
+        default: return store<4>(from, count, step, dtype, to);
+    }
+}
+
+}  // namespace cubecam
