@@ -158,16 +158,16 @@ void add_reserve(std::size_t (*free_reserve)()) {
     throw std::logic_error("memory: expected at most eight reserves, got one more");
 }
 
-void* allocate_large(std::size_t bytes) {
-    void* memory = ::operator new(bytes, std::align_val_t{large_page});
+void advise_large_pages([[maybe_unused]] void* memory,
+                        [[maybe_unused]] std::size_t bytes) noexcept {
 #ifdef MADV_HUGEPAGE
-    madvise(memory, bytes / large_page * large_page, MADV_HUGEPAGE);  // where it fails, pages are small
+    const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+    const std::uintptr_t first = reinterpret_cast<std::uintptr_t>(memory);
+    const std::uintptr_t begin = (first + page - 1) / page * page;
+    const std::uintptr_t end = (first + bytes) / page * page;
+    // Where it fails, pages are small.
+    if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 #endif
-    return memory;
-}
-
-void free_large(void* memory) noexcept {
-    ::operator delete(memory, std::align_val_t{large_page});
 }
 
 MemoryLeft memory_left(const fs::path& root) {

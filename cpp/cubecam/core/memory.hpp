@@ -44,14 +44,12 @@ private:
 /// Both checks call it before they refuse anything. At most eight functions.
 void add_reserve(std::size_t (*free_reserve)());
 
-/// Memory of at least this size has large pages where the system has them, which spares the kernel
-/// most of the work of giving it: a fault for each 4 KiB would take longer than a conversion.
+/// Memory of at least this size has large pages where the system has them: new memory then takes a
+/// fault of the processor for each 2 MiB, not for each 4 KiB.
 constexpr std::size_t large_allocation = std::size_t{4} << 20;
-constexpr std::size_t large_page = std::size_t{2} << 20;
 
-/// Memory of `bytes` bytes, at least large_allocation, aligned to large pages.
-void* allocate_large(std::size_t bytes);
-void free_large(void* memory) noexcept;
+/// Asks the system for large pages within new memory.
+void advise_large_pages(void* memory, std::size_t bytes) noexcept;
 
 constexpr std::size_t small_allocation = std::size_t{32} << 20;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <type_traits>
 
 namespace cubecam {
 
@@ -59,10 +60,12 @@ struct Weights {
                                            15, 15);
 }
 
-/// Four numbers, each in four lanes.
-[[gnu::always_inline]] inline void spread(const float* numbers, Float16& lanes) {
-    const Float4 four = texel_at(reinterpret_cast<const char*>(numbers));
-    lanes = __builtin_shufflevector(four, four, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
+/// Four of sixteen numbers, from number 4 * four on, each in four lanes.
+template <int four>
+[[gnu::always_inline]] inline void spread(const Float16& numbers, Float16& lanes) {
+    constexpr int i = 4 * four;
+    lanes = __builtin_shufflevector(numbers, numbers, i, i, i, i, i + 1, i + 1, i + 1, i + 1, i + 2,
+                                    i + 2, i + 2, i + 2, i + 3, i + 3, i + 3, i + 3);
 }
 
 /// apply_tap's arithmetic on four texels.
@@ -175,16 +178,21 @@ template <bool near>
     }
 }
 
-/// Four bilinear lookups.
+/// Four bilinear lookups: those from number i + 4 * four on.
+template <int four>
 [[gnu::always_inline]] inline void bilinear(const TexelGrid& texels, const BilinearTaps& taps,
                                             std::size_t i, Float16& result) {
     const char* base = reinterpret_cast<const char*>(texels.base);
     Four first;
-    for (std::size_t k = 0; k < 4; ++k) first.at[k] = base + taps.at[i + k];
+    for (std::size_t k = 0; k < 4; ++k) first.at[k] = base + taps.at[i + 4 * four + k];
+    // As they were stored: a load from parts of two stores would wait for both.
+    Float16 weights;
     Float16 right;
     Float16 bottom;
-    spread(taps.right + i, right);
-    spread(taps.bottom + i, bottom);
+    std::memcpy(&weights, taps.right + i, sizeof weights);
+    spread<four>(weights, right);
+    std::memcpy(&weights, taps.bottom + i, sizeof weights);
+    spread<four>(weights, bottom);
     Float16 a;
     Float16 b;
     load(first, 0, a);
@@ -194,6 +202,17 @@ template <bool near>
     load(first, texels.row + texels.texel, b);
     const Float16 lower = a + (b - a) * right;
     result = upper + (lower - upper) * bottom;
+}
+
+/// Calls body(i, std::integral_constant<int, four>) for the lookups i + 4 * four.
+template <typename Body>
+[[gnu::always_inline]] inline void for_fours(std::size_t count, const Body& body) {
+    for (std::size_t i = 0; i < count; i += 16) {
+        body(i, std::integral_constant<int, 0>{});
+        if (i + 4 < count) body(i, std::integral_constant<int, 1>{});
+        if (i + 8 < count) body(i, std::integral_constant<int, 2>{});
+        if (i + 12 < count) body(i, std::integral_constant<int, 3>{});
+    }
 }
 
 }  // namespace
@@ -274,25 +293,25 @@ CUBECAM_CLONES void place_bilinear(const float* x, const float* z, float cosine,
 
 CUBECAM_CLONES void look_bilinear(const TexelGrid& texels, const BilinearTaps& taps,
                                   std::size_t count, Float4* first) {
-    for (std::size_t i = 0; i < count; i += 4) {
+    for_fours(count, [&](std::size_t i, auto four) __attribute__((always_inline)) {
         Float16 found;
-        bilinear(texels, taps, i, found);
-        store(found, first + i);
-    }
+        bilinear<four()>(texels, taps, i, found);
+        store(found, first + i + 4 * four());
+    });
 }
 
 CUBECAM_CLONES void add_bilinear(const TexelGrid& texels, const BilinearTaps& taps,
                                  std::size_t count, const Float4* first, Float4* sum) {
-    for (std::size_t i = 0; i < count; i += 4) {
+    for_fours(count, [&](std::size_t i, auto four) __attribute__((always_inline)) {
         Float16 found;
         Float16 one;
         Float16 total;
-        bilinear(texels, taps, i, found);
-        std::memcpy(&one, first + i, sizeof one);
-        std::memcpy(&total, sum + i, sizeof total);
+        bilinear<four()>(texels, taps, i, found);
+        std::memcpy(&one, first + i + 4 * four(), sizeof one);
+        std::memcpy(&total, sum + i + 4 * four(), sizeof total);
         total += found - one;
-        store(total, sum + i);
-    }
+        store(total, sum + i + 4 * four());
+    });
 }
 
 }  // namespace cubecam

@@ -48,7 +48,7 @@ void filter_boxes(Reach reach, const TexelGrid& texels, const BoxTap* down, cons
                   std::size_t count, Float4* to);
 
 /// Places of bilinear lookups.
-struct alignas(64) BilinearTaps {
+struct alignas(64) BilinearTaps {  // arrays that the kernels read and write by 64 bytes
     float right[tile_size];
     float bottom[tile_size];
     std::int32_t at[tile_size];       ///< bytes from the base to the texel at the upper left

@@ -57,7 +57,6 @@ void resample_all(const CubePixels& cube, Sampling from, int size, Sampling to,
                             static_cast<std::size_t>(column);
         for (std::size_t tap = 0; tap < down.size(); tap += count, index += n) {
             scratch.filtered.filter(down, tap, 0, count, scratch.line);
-            if (target.store(scratch.line, count, 1, index)) continue;
             mend_texels(scratch.line, count, cube.channels, [&](std::size_t i) {
                 return sum_box(cube, face, down.placed(tap + i), scratch.across.placed(i));
             });

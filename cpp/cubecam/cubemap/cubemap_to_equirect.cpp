@@ -338,7 +338,6 @@ private:
             const std::size_t index =
                 static_cast<std::size_t>(row) * static_cast<std::size_t>(plan_.width) +
                 static_cast<std::size_t>(job.first);
-            if (job.to.store(scratch.line, columns, 1, index)) [[likely]] continue;
             mend_texels(scratch.line, columns, from_.channels, [&](std::size_t i) {
                 if (on_pole(i)) return sum_pole(job, row, job.first + static_cast<int>(i));
                 return sum_box(job.cube, face, down.placed(taps + i), across.placed(i));

@@ -36,7 +36,8 @@ constexpr std::size_t lane_count = 16;
 [[gnu::always_inline]] inline void convert(const Bytes& from, Floats& to) {
     constexpr float high = 0x1.01p-8f;
     constexpr auto low = static_cast<float>(1.0 / 255.0 - 0x1.01p-8);
-    const Floats value = __builtin_convertvector(from, Floats);
+    // By way of ints: GCC 12 has no other SIMD for it.
+    const Floats value = __builtin_convertvector(__builtin_convertvector(from, Ints), Floats);
     to = value * high + value * low;
 }
 
@@ -98,40 +99,32 @@ template <typename From, typename To, typename Source, typename Target>
     std::memcpy(to + i, &made, (count - i) * sizeof(Target));
 }
 
-/// Writes the first lanes of texels as floats in order of memory, and notes in `bad` which lanes
-/// are not finite somewhere.
+/// Writes the first lanes of texels as floats in order of memory.
 template <int channels>
 [[gnu::always_inline]] inline void pack(const Float4* from, std::ptrdiff_t count, int step,
-                                        float* to, Float4& bad) {
+                                        float* to) {
     if (step < 0) from += count - 1;
     constexpr std::size_t bytes = channels * sizeof(float);
-    Float4 sum = {0, 0, 0, 0};  // of x - x, which is 0 or NaN
     // All but the last may write over the beginning of the next one: a whole register is stored.
     for (std::ptrdiff_t i = 1; i < count; ++i, from += step, to += channels) {
-        const Float4 texel = *from;
-        sum += texel - texel;
-        std::memcpy(to, &texel, channels == 3 ? sizeof texel : bytes);
+        std::memcpy(to, from, channels == 3 ? sizeof *from : bytes);
     }
-    const Float4 texel = *from;
-    sum += texel - texel;
-    std::memcpy(to, &texel, bytes);
-    bad += sum;
+    std::memcpy(to, from, bytes);
 }
 
 template <int channels>
-[[gnu::always_inline]] inline bool store(const Float4* from, std::size_t count, int step,
+[[gnu::always_inline]] inline void store(const Float4* from, std::size_t count, int step,
                                          DType dtype, std::byte* to) {
-    Float4 bad = {0, 0, 0, 0};
     if (dtype == DType::float32) {
         float* first = reinterpret_cast<float*>(to);
         if (step < 0) first -= (count - 1) * channels;
-        pack<channels>(from, static_cast<std::ptrdiff_t>(count), step, first, bad);
+        pack<channels>(from, static_cast<std::ptrdiff_t>(count), step, first);
     } else {
         alignas(64) float line[piece * channels];
         const std::size_t texel = channels * dtype_size(dtype);
         for (std::size_t begin = 0; begin < count; begin += piece) {
             const std::size_t length = std::min(piece, count - begin);
-            pack<channels>(from + begin, static_cast<std::ptrdiff_t>(length), step, line, bad);
+            pack<channels>(from + begin, static_cast<std::ptrdiff_t>(length), step, line);
             std::byte* const first =
                 step > 0 ? to + begin * texel : to - (begin + length - 1) * texel;
             if (dtype == DType::uint8) {
@@ -143,9 +136,6 @@ template <int channels>
             }
         }
     }
-    bool good = true;
-    for (int c = 0; c < channels; ++c) good &= bad[c] == 0.0f;
-    return good;
 }
 
 }  // namespace
@@ -168,7 +158,27 @@ CUBECAM_CLONES bool row_to_floats(DType dtype, const std::byte* pixels, std::siz
     return finite(to, count);
 }
 
-CUBECAM_CLONES bool store_texels(const Float4* from, std::size_t count, int channels, int step,
+CUBECAM_CLONES bool all_finite_texels(const Float4* texels, std::size_t count, int channels) {
+    Floats sums[2] = {};  // of x - x, which is 0 or NaN
+    std::size_t i = 0;
+    for (; i + 8 <= count; i += 8) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            Floats four;
+            std::memcpy(&four, texels + i + 4 * k, sizeof four);
+            sums[k] += four - four;
+        }
+    }
+    Float4 sum = {};
+    for (; i < count; ++i) sum += texels[i] - texels[i];
+    const Floats both = sums[0] + sums[1];
+    bool good = true;
+    for (int c = 0; c < channels; ++c) {
+        good &= sum[c] + both[c] + both[c + 4] + both[c + 8] + both[c + 12] == 0.0f;
+    }
+    return good;
+}
+
+CUBECAM_CLONES void store_texels(const Float4* from, std::size_t count, int channels, int step,
                                  DType dtype, std::byte* to) {
     switch (channels) {
         case 1: return store<1>(from, count, step, dtype, to);

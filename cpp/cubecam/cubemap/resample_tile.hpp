@@ -77,16 +77,17 @@ struct TexelTarget {
     int channels;
 
     /// Writes texels one after another, or in the opposite order: step 1 or -1. The first of them
-    /// is texel `index` of the picture. Returns whether all are finite.
-    bool store(const Float4* from, std::size_t count, int step, std::size_t index) const {
+    /// is texel `index` of the picture.
+    void store(const Float4* from, std::size_t count, int step, std::size_t index) const {
         const std::size_t texel = static_cast<std::size_t>(channels) * dtype_size(dtype);
-        return store_texels(from, count, channels, step, dtype, pixels + index * texel);
+        store_texels(from, count, channels, step, dtype, pixels + index * texel);
     }
 };
 
 /// Computes again, by exact(i), the channels of texels that are not finite.
 template <typename Exact>
 void mend_texels(Float4* texels, std::size_t count, int channels, const Exact& exact) {
+    if (all_finite_texels(texels, count, channels)) [[likely]] return;
     for (std::size_t i = 0; i < count; ++i) {
         bool good = true;
         for (int c = 0; c < channels; ++c) good &= is_finite<1>(texels[i][c]);

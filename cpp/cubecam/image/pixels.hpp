@@ -38,15 +38,10 @@ struct UninitializedAllocator : std::allocator<T> {
     template <typename U>
     UninitializedAllocator(const UninitializedAllocator<U>&) noexcept {}
     T* allocate(std::size_t count) {
-        if (count <= static_cast<std::size_t>(-1) / sizeof(T)) {
-            check_room(count * sizeof(T));
-            if (is_large(count)) return static_cast<T*>(allocate_large(count * sizeof(T)));
-        }
-        return std::allocator<T>::allocate(count);
-    }
-    void deallocate(T* memory, std::size_t count) noexcept {
-        if (is_large(count)) return free_large(memory);
-        std::allocator<T>::deallocate(memory, count);
+        if (count <= static_cast<std::size_t>(-1) / sizeof(T)) check_room(count * sizeof(T));
+        T* memory = std::allocator<T>::allocate(count);
+        if (count >= large_allocation / sizeof(T)) advise_large_pages(memory, count * sizeof(T));
+        return memory;
     }
     template <typename U>
     void construct(U* at) noexcept {
@@ -59,9 +54,6 @@ struct UninitializedAllocator : std::allocator<T> {
     void construct(U* at, Args&&... args) {
         ::new (static_cast<void*>(at)) U(std::forward<Args>(args)...);
     }
-
-private:
-    static bool is_large(std::size_t count) { return count >= large_allocation / sizeof(T); }
 };
 
 /// The vector type of raw pixels and of arrays of floats or ids. New elements are NOT zero.
