@@ -6,7 +6,7 @@
 #include "cubecam/render/passes/output_declarations.hpp"
 #include "cubecam/render/resources/outputs.hpp"
 #include "cubecam/render/resources/repack.hpp"
-#include "cubecam/render/resources/result_pool.hpp"
+#include "cubecam/image/result_pool.hpp"
 
 #include <cstdint>
 #include <memory>

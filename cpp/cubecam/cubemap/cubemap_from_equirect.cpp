@@ -5,6 +5,7 @@
 #include "cubecam/cubemap/infinities.hpp"
 #include "cubecam/cubemap/resample_tile.hpp"
 #include "cubecam/cubemap/tap_cache.hpp"
+#include "cubecam/image/result_pool.hpp"
 #include "cubecam/math/fast_atan.hpp"
 
 #include <glm/geometric.hpp>
@@ -469,13 +470,13 @@ void equirect_to_cube(const EquirectPixels& from, int size, DType to, std::byte*
     convert_without_infinities(*plan, from, to, cubes, conversion);
 }
 
-PixelBuffer equirect_to_cube(const EquirectPixels& from, int size, DType to) {
+std::shared_ptr<PixelBuffer> equirect_to_cube(const EquirectPixels& from, int size, DType to) {
     check_equirect(from, size);
     const auto n = static_cast<std::size_t>(size);
-    PixelBuffer cubes(from.count * face_count * n * n * static_cast<std::size_t>(from.channels) *
-                      dtype_size(to));
-    equirect_to_cube(from, size, to, cubes.data());
-    return cubes;
+    auto faces = result_memory(from.count * face_count * n * n *
+                               static_cast<std::size_t>(from.channels) * dtype_size(to));
+    equirect_to_cube(from, size, to, faces->data());
+    return faces;
 }
 
 int default_face_size(int equirect_width) {

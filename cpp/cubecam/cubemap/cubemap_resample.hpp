@@ -16,6 +16,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstddef>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -73,7 +74,7 @@ public:
 /// @throws std::invalid_argument unless width = 2 height (with borders: unless both are at least
 ///         2), channels is 1 to 4, size at least 1.
 /// @throws FoundNan for a NaN anywhere in the panorama.
-PixelBuffer equirect_to_cube(const EquirectPixels& from, int size, DType to);
+std::shared_ptr<PixelBuffer> equirect_to_cube(const EquirectPixels& from, int size, DType to);
 /// The same for many panoramas of one size, into memory [count][6][size][size][channels].
 void equirect_to_cube(const EquirectPixels& from, int size, DType to, std::byte* cubes);
 
@@ -92,8 +93,8 @@ struct CubeFaces {
 
 /// Returns [width/2][width][channels]. @throws std::invalid_argument unless width is even and
 /// positive.
-PixelBuffer cube_to_equirect(const CubeMapData& cube, int width, Center center, Sampling sampling,
-                             DType to);
+std::shared_ptr<PixelBuffer> cube_to_equirect(const CubeMapData& cube, int width, Center center,
+                                              Sampling sampling, DType to);
 /// The same for many cubes of one size, into memory [count][width/2][width][channels].
 void cube_to_equirect(const CubeFaces& cubes, int width, Center center, Sampling sampling, DType to,
                       std::byte* panoramas);

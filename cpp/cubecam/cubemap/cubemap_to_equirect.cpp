@@ -2,6 +2,7 @@
 #include "cubecam/cubemap/cubemap_resample.hpp"
 #include "cubecam/cubemap/resample_tile.hpp"
 #include "cubecam/cubemap/tap_cache.hpp"
+#include "cubecam/image/result_pool.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -322,19 +323,18 @@ private:
             const auto on_pole = [&](std::size_t i) {
                 return down.size() == 0 || down.absent(taps + i);
             };
-            // Each run may write three texels too many, which the next one writes again.
-            for (std::size_t first = 0; first < columns;) {
-                const bool pole = on_pole(first);
-                std::size_t until = first + 1;
-                while (until < columns && on_pole(until) == pole) ++until;
-                if (pole) {
-                    sample_pole(job, row, first, until - first, scratch);
-                } else {
-                    scratch.filtered.filter(down, taps + first, first, until - first,
-                                            scratch.line + first);
-                }
-                first = until;
+            // The texels on the side face lie side by side. Each run may write three texels too
+            // many, which the next one writes again.
+            std::size_t begin = down.size() == 0 ? columns : 0;
+            std::size_t end = columns;
+            while (begin < end && on_pole(begin)) ++begin;
+            while (begin < end && on_pole(end - 1)) --end;
+            sample_pole(job, row, 0, begin, scratch);
+            if (begin < end) {
+                scratch.filtered.filter(down, taps + begin, begin, end - begin,
+                                        scratch.line + begin);
             }
+            sample_pole(job, row, end, columns - end, scratch);
             const std::size_t index =
                 static_cast<std::size_t>(row) * static_cast<std::size_t>(plan_.width) +
                 static_cast<std::size_t>(job.first);
@@ -393,6 +393,7 @@ private:
     /// Computes `count` texels of a row, from column `first` of the tile on, which lie on +Y or -Y.
     void sample_pole(const Job& job, int row, std::size_t first, std::size_t count,
                      Scratch& scratch) const {
+        if (count == 0) return;
         const PoleTexels& pole = job.poles[plan_.latitude(row) > 0 ? 0 : 1];
         const auto& samples = plan_.pole_row(row).samples;
         const int column = job.first + static_cast<int>(first);
@@ -422,8 +423,11 @@ private:
                 to[i] = scratch.first[i] + scratch.sum[i] * weight;
             }
         }
+        int any = 0;
+        for (const std::int32_t each : places.outside) any |= each;
+        if (any == 0) [[likely]] return;
         for (std::size_t i = 0; i < count; ++i) {
-            if (places.outside[i] == 0) [[likely]] continue;
+            if (places.outside[i] == 0) continue;
             to[i] = sample_texel(job, row, column + static_cast<int>(i));
         }
     }
@@ -525,13 +529,14 @@ void cube_to_equirect(const CubeFaces& cubes, int width, Center center, Sampling
     if (fresh) TapCache::instance().add(key, plan);
 }
 
-PixelBuffer cube_to_equirect(const CubeMapData& cube, int width, Center center, Sampling sampling,
-                             DType to) {
+std::shared_ptr<PixelBuffer> cube_to_equirect(const CubeMapData& cube, int width, Center center,
+                                              Sampling sampling, DType to) {
     check_equirect_width(width);
-    PixelBuffer panorama(static_cast<std::size_t>(width) * static_cast<std::size_t>(width / 2) *
-                         static_cast<std::size_t>(cube.channels) * dtype_size(to));
+    auto panorama =
+        result_memory(static_cast<std::size_t>(width) * static_cast<std::size_t>(width / 2) *
+                      static_cast<std::size_t>(cube.channels) * dtype_size(to));
     cube_to_equirect({cube.pixels->data(), cube.size, cube.channels, cube.dtype}, width, center,
-                     sampling, to, panorama.data());
+                     sampling, to, panorama->data());
     return panorama;
 }
 

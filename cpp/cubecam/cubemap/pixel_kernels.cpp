@@ -31,16 +31,6 @@ typedef std::uint16_t Halves __attribute__((vector_size(32)));
 typedef std::uint8_t Bytes __attribute__((vector_size(16)));
 constexpr std::size_t lane_count = 16;
 
-/// value / 255 as the division rounds it, without a division: 1/255 has parts of 9 and 24 bits. The
-/// product with the first part has no rounding error, and the sum is rounded once.
-[[gnu::always_inline]] inline void convert(const Bytes& from, Floats& to) {
-    constexpr float high = 0x1.01p-8f;
-    constexpr auto low = static_cast<float>(1.0 / 255.0 - 0x1.01p-8);
-    // By way of ints: GCC 12 has no other SIMD for it.
-    const Floats value = __builtin_convertvector(__builtin_convertvector(from, Ints), Floats);
-    to = value * high + value * low;
-}
-
 /// As half_to_float.
 [[gnu::always_inline]] inline void convert(const Halves& from, Floats& to) {
     constexpr std::uint32_t exponent_mask = 0x7c00u << 13;
@@ -99,6 +89,32 @@ template <typename From, typename To, typename Source, typename Target>
     std::memcpy(to + i, &made, (count - i) * sizeof(Target));
 }
 
+/// value / 255 as the division rounds it, without a division: 1/255 has parts of 9 and 24 bits. The
+/// product with the first part has no rounding error, and the sum is rounded once. `count` is a
+/// multiple of byte_block. (A plain loop: of vector types GCC 12 makes scalar code here.)
+constexpr std::size_t byte_block = 32;
+[[gnu::always_inline]] inline void byte_blocks(const std::uint8_t* from, std::size_t count,
+                                               float* __restrict to) {
+    constexpr float high = 0x1.01p-8f;
+    constexpr auto low = static_cast<float>(1.0 / 255.0 - 0x1.01p-8);
+    for (std::size_t i = 0; i < count / byte_block * byte_block; ++i) {
+        const auto value = static_cast<float>(static_cast<std::int32_t>(from[i]));
+        to[i] = value * high + value * low;
+    }
+}
+
+[[gnu::always_inline]] inline void bytes_to_floats(const std::uint8_t* from, std::size_t count,
+                                                   float* to) {
+    const std::size_t whole = count / byte_block * byte_block;
+    byte_blocks(from, whole, to);
+    if (whole == count) return;
+    std::uint8_t rest[byte_block] = {};
+    float made[byte_block];
+    std::memcpy(rest, from + whole, count - whole);
+    byte_blocks(rest, byte_block, made);
+    std::memcpy(to + whole, made, (count - whole) * sizeof(float));
+}
+
 /// Writes the first lanes of texels as floats in order of memory.
 template <int channels>
 [[gnu::always_inline]] inline void pack(const Float4* from, std::ptrdiff_t count, int step,
@@ -147,7 +163,7 @@ CUBECAM_CLONES bool all_finite_row(const float* numbers, std::size_t count) {
 CUBECAM_CLONES bool row_to_floats(DType dtype, const std::byte* pixels, std::size_t count,
                                   float* to) {
     if (dtype == DType::uint8) {
-        convert_row<Bytes, Floats>(reinterpret_cast<const std::uint8_t*>(pixels), count, to);
+        bytes_to_floats(reinterpret_cast<const std::uint8_t*>(pixels), count, to);
         return true;
     }
     if (dtype == DType::float16) {

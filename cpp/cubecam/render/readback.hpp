@@ -4,7 +4,7 @@
 #include "cubecam/gl/context.hpp"
 #include "cubecam/render/frame.hpp"
 #include "cubecam/render/resources/read_buffer.hpp"
-#include "cubecam/render/resources/result_pool.hpp"
+#include "cubecam/image/result_pool.hpp"
 #include "cubecam/render/resources/target.hpp"
 
 #include <cstddef>

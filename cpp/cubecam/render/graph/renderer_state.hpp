@@ -15,7 +15,7 @@
 #include "cubecam/render/resources/gpu_cache.hpp"
 #include "cubecam/render/resources/key.hpp"
 #include "cubecam/render/resources/read_buffer.hpp"
-#include "cubecam/render/resources/result_pool.hpp"
+#include "cubecam/image/result_pool.hpp"
 #include "cubecam/render/resources/target_store.hpp"
 #include "cubecam/render/resources/weak_cache.hpp"
 #include "cubecam/scene/probe.hpp"
