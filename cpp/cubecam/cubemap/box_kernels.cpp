@@ -4,16 +4,13 @@
 
 #include <algorithm>
 #include <cstring>
-#include <type_traits>
 
 namespace cubecam {
 
 namespace {
 
-/// Two and four texels side by side. Functions take them by reference: without AVX, passing them by
-/// value has no fixed ABI.
-typedef float Float8 __attribute__((vector_size(32)));
-typedef float Float16 __attribute__((vector_size(64)));
+// One texel is one register of four floats. Wider ones, with two or four texels, would have to be
+// put together from as many loads, which takes as long as the arithmetic that they save.
 
 [[gnu::always_inline]] inline Float4 texel_at(const char* address) {
     Float4 texel;  // `address` is aligned for a float only
@@ -21,81 +18,34 @@ typedef float Float16 __attribute__((vector_size(64)));
     return texel;
 }
 
-/// The addresses of four texels.
-struct Four {
-    const char* at[4];
-};
-
-[[gnu::always_inline]] inline void load(const Four& from, std::ptrdiff_t offset, Float16& texels) {
-    const Float8 low = __builtin_shufflevector(
-        texel_at(from.at[0] + offset), texel_at(from.at[1] + offset), 0, 1, 2, 3, 4, 5, 6, 7);
-    const Float8 high = __builtin_shufflevector(
-        texel_at(from.at[2] + offset), texel_at(from.at[3] + offset), 0, 1, 2, 3, 4, 5, 6, 7);
-    texels = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14,
-                                     15);
+[[gnu::always_inline]] inline Float4 each(float number) {
+    return Float4{number, number, number, number};
 }
 
-[[gnu::always_inline]] inline Four moved(const Four& from, const std::ptrdiff_t (&by)[4]) {
-    return {{from.at[0] + by[0], from.at[1] + by[1], from.at[2] + by[2], from.at[3] + by[3]}};
-}
-
-[[gnu::always_inline]] inline void store(const Float16& texels, Float4* to) {
-    std::memcpy(static_cast<void*>(to), &texels, sizeof texels);
-}
-
-/// Weights of four taps, each in four lanes.
-struct Weights {
-    Float16 near;
-    Float16 last;
-};
-
-[[gnu::always_inline]] inline void load(const BoxTap* taps, Weights& weights) {
-    static_assert(sizeof(BoxTap) == 16 && offsetof(BoxTap, near) == 8 &&
-                  offsetof(BoxTap, last) == 12);
-    Float16 all;
-    std::memcpy(&all, taps, sizeof all);
-    weights.near = __builtin_shufflevector(all, all, 2, 2, 2, 2, 6, 6, 6, 6, 10, 10, 10, 10, 14, 14,
-                                           14, 14);
-    weights.last = __builtin_shufflevector(all, all, 3, 3, 3, 3, 7, 7, 7, 7, 11, 11, 11, 11, 15, 15,
-                                           15, 15);
-}
-
-/// Four of sixteen numbers, from number 4 * four on, each in four lanes.
-template <int four>
-[[gnu::always_inline]] inline void spread(const Float16& numbers, Float16& lanes) {
-    constexpr int i = 4 * four;
-    lanes = __builtin_shufflevector(numbers, numbers, i, i, i, i, i + 1, i + 1, i + 1, i + 1, i + 2,
-                                    i + 2, i + 2, i + 2, i + 3, i + 3, i + 3, i + 3);
-}
-
-/// apply_tap's arithmetic on four texels.
+/// apply_tap's arithmetic.
 template <bool near>
-[[gnu::always_inline]] inline void weigh(const Float16& first, const Float16& second,
-                                         const Float16& third, const Weights& weights,
-                                         Float16& result) {
+[[gnu::always_inline]] inline Float4 weigh(const Float4& first, const Float4& second,
+                                           const Float4& third, float near_weight,
+                                           float last_weight) {
     if constexpr (near) {
-        result = first + ((second - first) * weights.near + (third - first) * weights.last);
+        return first + ((second - first) * each(near_weight) + (third - first) * each(last_weight));
     } else {
-        result = first + (second - first) * weights.near;
+        return first + (second - first) * each(near_weight);
     }
 }
 
-/// Filters texels `step` bytes apart; the last ones lie at `last`.
+/// Filters texels `step` bytes apart; the last one lies `last` bytes from the first.
 template <bool near>
-[[gnu::always_inline]] inline void filter(const Four& from, std::ptrdiff_t step, const Four& last,
-                                          std::ptrdiff_t offset, const Weights& weights,
-                                          Float16& result) {
-    Float16 first;
-    Float16 second;
-    Float16 third;
-    load(from, offset, first);
-    load(from, offset + step, second);
+[[gnu::always_inline]] inline Float4 filter(const char* from, std::ptrdiff_t step,
+                                            std::ptrdiff_t last, float near_weight,
+                                            float last_weight) {
+    const Float4 first = texel_at(from);
+    const Float4 second = texel_at(from + step);
     if constexpr (near) {
-        load(last, offset, third);
+        return weigh<true>(first, second, texel_at(from + last), near_weight, last_weight);
     } else {
-        third = second;
+        return weigh<false>(first, second, second, near_weight, last_weight);
     }
-    weigh<near>(first, second, third, weights, result);
 }
 
 /// One texel by a tap of any width.
@@ -107,19 +57,10 @@ template <bool near>
 
 template <bool near>
 [[gnu::always_inline]] inline void row_near(const char* row, const RowTaps& taps, Float4* to) {
-    for (std::size_t i = 0; i < taps.count; i += 4) {
-        Four first;
-        Four last;
-        for (std::size_t k = 0; k < 4; ++k) {
-            first.at[k] = row + taps.first_at[i + k];
-            last.at[k] = first.at[k] + taps.last_at[i + k];
-        }
-        Weights weights;
-        std::memcpy(&weights.near, taps.near + 4 * i, sizeof weights.near);
-        std::memcpy(&weights.last, taps.last + 4 * i, sizeof weights.last);
-        Float16 result;
-        filter<near>(first, taps.texel, last, 0, weights, result);
-        store(result, to + i);
+    const std::ptrdiff_t texel = taps.texel;
+    for (std::size_t i = 0; i < taps.count; ++i) {
+        to[i] = filter<near>(row + taps.first_at[i], texel, taps.last_at[i], taps.near[i],
+                             taps.last[i]);
     }
 }
 
@@ -128,18 +69,10 @@ template <bool near>
                                                 std::size_t count, Float4* to) {
     constexpr std::ptrdiff_t texel = sizeof(Float4);
     constexpr std::ptrdiff_t stride = tile_size * texel;
-    for (std::size_t i = 0; i < count; i += 4, taps += 4, rows += 4 * texel) {
-        Four first;
-        Four last;
-        for (std::ptrdiff_t k = 0; k < 4; ++k) {
-            first.at[k] = rows + taps[k].first * stride + k * texel;
-            last.at[k] = first.at[k] + taps[k].inner * stride + stride;
-        }
-        Weights weights;
-        load(taps, weights);
-        Float16 result;
-        filter<near>(first, stride, last, 0, weights, result);
-        store(result, to + i);
+    for (std::size_t i = 0; i < count; ++i, rows += texel) {
+        const BoxTap& tap = taps[i];
+        to[i] = filter<near>(rows + tap.first * stride, stride, tap.inner * stride + stride,
+                             tap.near, tap.last);
     }
 }
 
@@ -149,70 +82,29 @@ template <bool near>
     const char* base = reinterpret_cast<const char*>(texels.base);
     const std::ptrdiff_t row = texels.row;
     const std::ptrdiff_t texel = texels.texel;
-    for (std::size_t i = 0; i < count; i += 4, down += 4, across += 4) {
-        Four first;
-        std::ptrdiff_t right[4];
-        std::ptrdiff_t below[4];
-        for (std::size_t k = 0; k < 4; ++k) {
-            first.at[k] = base + down[k].first * row + across[k].first * texel;
-            right[k] = across[k].inner * texel + texel;
-            below[k] = down[k].inner * row + row;
-        }
-        const Four last = moved(first, right);
-        Weights weights;
-        load(across, weights);
-        Float16 upper;
-        Float16 middle;
-        Float16 lower;
-        filter<near>(first, texel, last, 0, weights, upper);
-        filter<near>(first, texel, last, row, weights, middle);
-        if constexpr (near) {
-            filter<near>(moved(first, below), texel, moved(last, below), 0, weights, lower);
-        } else {
-            lower = middle;
-        }
-        load(down, weights);
-        Float16 result;
-        weigh<near>(upper, middle, lower, weights, result);
-        store(result, to + i);
+    for (std::size_t i = 0; i < count; ++i) {
+        const BoxTap& right = across[i];
+        const BoxTap& below = down[i];
+        const char* first = base + below.first * row + right.first * texel;
+        const std::ptrdiff_t last = right.inner * texel + texel;
+        const auto line = [&](const char* from) __attribute__((always_inline)) {
+            return filter<near>(from, texel, last, right.near, right.last);
+        };
+        const Float4 upper = line(first);
+        const Float4 middle = line(first + row);
+        Float4 lower = middle;
+        if constexpr (near) lower = line(first + below.inner * row + row);
+        to[i] = weigh<near>(upper, middle, lower, below.near, below.last);
     }
 }
 
-/// Four bilinear lookups: those from number i + 4 * four on.
-template <int four>
-[[gnu::always_inline]] inline void bilinear(const TexelGrid& texels, const BilinearTaps& taps,
-                                            std::size_t i, Float16& result) {
-    const char* base = reinterpret_cast<const char*>(texels.base);
-    Four first;
-    for (std::size_t k = 0; k < 4; ++k) first.at[k] = base + taps.at[i + 4 * four + k];
-    // As they were stored: a load from parts of two stores would wait for both.
-    Float16 weights;
-    Float16 right;
-    Float16 bottom;
-    std::memcpy(&weights, taps.right + i, sizeof weights);
-    spread<four>(weights, right);
-    std::memcpy(&weights, taps.bottom + i, sizeof weights);
-    spread<four>(weights, bottom);
-    Float16 a;
-    Float16 b;
-    load(first, 0, a);
-    load(first, texels.texel, b);
-    const Float16 upper = a + (b - a) * right;
-    load(first, texels.row, a);
-    load(first, texels.row + texels.texel, b);
-    const Float16 lower = a + (b - a) * right;
-    result = upper + (lower - upper) * bottom;
-}
-
-/// Calls body(i, std::integral_constant<int, four>) for the lookups i + 4 * four.
-template <typename Body>
-[[gnu::always_inline]] inline void for_fours(std::size_t count, const Body& body) {
-    for (std::size_t i = 0; i < count; i += 16) {
-        body(i, std::integral_constant<int, 0>{});
-        if (i + 4 < count) body(i, std::integral_constant<int, 1>{});
-        if (i + 8 < count) body(i, std::integral_constant<int, 2>{});
-        if (i + 12 < count) body(i, std::integral_constant<int, 3>{});
-    }
+[[gnu::always_inline]] inline Float4 bilinear(const TexelGrid& texels, const BilinearTaps& taps,
+                                              std::size_t i) {
+    const char* at = reinterpret_cast<const char*>(texels.base) + taps.at[i];
+    const Float4 upper = mix_texels(texel_at(at), texel_at(at + texels.texel), taps.right[i]);
+    at += texels.row;
+    const Float4 lower = mix_texels(texel_at(at), texel_at(at + texels.texel), taps.right[i]);
+    return mix_texels(upper, lower, taps.bottom[i]);
 }
 
 }  // namespace
@@ -220,16 +112,14 @@ template <typename Body>
 void RowTaps::set(const TapList& list, std::ptrdiff_t texel_bytes) {
     taps = &list;
     texel = texel_bytes;
-    count = (list.size() + 3) / 4 * 4;
+    count = list.size();
     const auto step = static_cast<std::int32_t>(texel_bytes);
     for (std::size_t i = 0; i < count; ++i) {
         const BoxTap& tap = *list.data(i);
         first_at[i] = tap.first * step;
         last_at[i] = (tap.inner + 1) * step;
-        for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) {
-            near[k] = tap.near;
-            last[k] = tap.last;
-        }
+        near[i] = tap.near;
+        last[i] = tap.last;
     }
 }
 
@@ -281,8 +171,8 @@ CUBECAM_CLONES void place_bilinear(const float* x, const float* z, float cosine,
         const int upper = static_cast<int>(row + 1.0f) - 1;
         taps.right[i] = column - static_cast<float>(left);
         taps.bottom[i] = row - static_cast<float>(upper);
-        const int beyond = (turned_x > 1.0f) | (turned_x < -1.0f) | (turned_z > 1.0f) |
-                           (turned_z < -1.0f);
+        const int beyond =
+            (turned_x > 1.0f) | (turned_x < -1.0f) | (turned_z > 1.0f) | (turned_z < -1.0f);
         taps.outside[i] |= beyond;
         // What lies beyond the square is looked up by the caller, and here anywhere in the grid.
         const int in_column = std::min(std::max(left - at.column0, 0), at.columns - 2);
@@ -293,25 +183,12 @@ CUBECAM_CLONES void place_bilinear(const float* x, const float* z, float cosine,
 
 CUBECAM_CLONES void look_bilinear(const TexelGrid& texels, const BilinearTaps& taps,
                                   std::size_t count, Float4* first) {
-    for_fours(count, [&](std::size_t i, auto four) __attribute__((always_inline)) {
-        Float16 found;
-        bilinear<four()>(texels, taps, i, found);
-        store(found, first + i + 4 * four());
-    });
+    for (std::size_t i = 0; i < count; ++i) first[i] = bilinear(texels, taps, i);
 }
 
 CUBECAM_CLONES void add_bilinear(const TexelGrid& texels, const BilinearTaps& taps,
                                  std::size_t count, const Float4* first, Float4* sum) {
-    for_fours(count, [&](std::size_t i, auto four) __attribute__((always_inline)) {
-        Float16 found;
-        Float16 one;
-        Float16 total;
-        bilinear<four()>(texels, taps, i, found);
-        std::memcpy(&one, first + i + 4 * four(), sizeof one);
-        std::memcpy(&total, sum + i + 4 * four(), sizeof total);
-        total += found - one;
-        store(total, sum + i + 4 * four());
-    });
+    for (std::size_t i = 0; i < count; ++i) sum[i] += bilinear(texels, taps, i) - first[i];
 }
 
 }  // namespace cubecam

@@ -1,8 +1,8 @@
-/// The inner loops of resampling, four texels at a time (clones.hpp). Only the .cpp files of
+/// The inner loops of resampling (clones.hpp). Only the .cpp files of
 /// cubemap/ include this header.
 ///
-/// A texel is four floats wherever it is read: of a picture of fewer channels, the lanes behind them
-/// hold the numbers that follow in memory, and nobody reads what is computed of them. So three
+/// A texel is four floats wherever it is read: of a picture of fewer channels, the lanes behind
+/// them hold the numbers that follow in memory, and nobody reads what is computed of them. So three
 /// floats behind the last texel must be readable.
 #pragma once
 
@@ -15,24 +15,22 @@ namespace cubecam {
 
 /// The taps of a row of a tile, which many rows share, with their places in memory.
 struct alignas(64) RowTaps {
-    float near[4 * tile_size];         ///< each weight in four lanes
-    float last[4 * tile_size];
+    float near[tile_size];
+    float last[tile_size];
     std::int32_t first_at[tile_size];  ///< bytes from the beginning of the row
     std::int32_t last_at[tile_size];   ///< bytes from the first texel of the tap to its last
     const TapList* taps;
     std::ptrdiff_t texel;  ///< bytes from a texel to the next one
-    std::size_t count;     ///< rounded up to a multiple of 4
+    std::size_t count;
 
     /// Takes at most tile_size taps of a closed list, for texels of `texel_bytes` bytes.
     void set(const TapList& list, std::ptrdiff_t texel_bytes);
 };
 
-/// to[i] = the box taps[i] over texels of the row at `row`, for all taps, and up to three texels
-/// behind them.
+/// to[i] = the box taps[i] over texels of the row at `row`, for all taps.
 void filter_row(const float* row, const RowTaps& taps, Float4* to);
 
-/// to[i] = the box taps[i] over rows of tile_size texels, in column i. `to` has room for a multiple
-/// of four texels.
+/// to[i] = the box taps[i] over rows of tile_size texels, in column i.
 void filter_columns(Reach reach, const Float4* rows, const BoxTap* taps, std::size_t count,
                     Float4* to);
 
@@ -43,12 +41,12 @@ struct TexelGrid {
     std::ptrdiff_t texel;
 };
 
-/// to[i] = the box across[i] by down[i]. `to` has room for a multiple of four texels.
+/// to[i] = the box across[i] by down[i].
 void filter_boxes(Reach reach, const TexelGrid& texels, const BoxTap* down, const BoxTap* across,
                   std::size_t count, Float4* to);
 
 /// Places of bilinear lookups.
-struct alignas(64) BilinearTaps {  // arrays that the kernels read and write by 64 bytes
+struct alignas(64) BilinearTaps {
     float right[tile_size];
     float bottom[tile_size];
     std::int32_t at[tile_size];       ///< bytes from the base to the texel at the upper left

@@ -3,8 +3,9 @@
 ///
 /// One object file holds all versions; the loader takes the one that the processor can run. This
 /// needs GCC, x86 and glibc; elsewhere there is only the plain version, with the same results bit
-/// for bit, since files of such functions are compiled without fused multiply and add
-/// (cpp/CMakeLists.txt). (Sanitizers are not ready yet when the loader chooses.)
+/// for bit, since files of such functions are compiled without fused multiply and add, and for
+/// loops with comparisons without traps of the processor (cpp/CMakeLists.txt). (Sanitizers are not
+/// ready yet when the loader chooses.)
 #pragma once
 
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__GLIBC__) &&       \

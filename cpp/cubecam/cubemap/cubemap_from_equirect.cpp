@@ -29,9 +29,9 @@ constexpr std::array side_faces = {Face::pos_x, Face::neg_x, Face::pos_z, Face::
 
 /// The tiles of a conversion from a panorama to a cube, and their taps.
 ///
-/// A tile lies on the left half of the side faces, or on one quarter of +Y; it also fills its mirror
-/// images, which have the same angles. A tile's ranges of texels reach to the edges of the tile, so
-/// that each texel of the panorama is read for some tile, also where boxes leave gaps.
+/// A tile lies on the left half of the side faces, or on one quarter of +Y; it also fills its
+/// mirror images, which have the same angles. A tile's ranges of texels reach to the edges of the
+/// tile, so that each texel of the panorama is read for some tile, also where boxes leave gaps.
 class EquirectToCubePlan : public TapPlan {
 public:
     EquirectToCubePlan(const EquirectGrid& panorama, Center center, int face_size)
@@ -241,17 +241,15 @@ public:
 
     void run() {
         const std::size_t tiles = plan_.tiles();
-        // Enough pieces for all threads; within a piece the taps of a tile serve many pictures.
-        const std::size_t parts =
-            std::min(from_.count, (4 * worker_count() + tiles - 1) / tiles);
-        parallel_for_with<Scratch>(
-            0, tiles * parts, 1, [&](std::size_t begin, std::size_t end, Scratch& scratch) {
-                for (std::size_t i = begin; i < end; ++i) {
-                    const std::size_t part = i % parts;
-                    fill_tile(i / parts, part, part * from_.count / parts,
-                              (part + 1) * from_.count / parts, scratch);
-                }
-            });
+        const std::size_t parts = batch_parts(from_.count, tiles);
+        parallel_for_with<Scratch>(0, tiles * parts, 1,
+                                   [&](std::size_t begin, std::size_t end, Scratch& scratch) {
+                                       for (std::size_t i = begin; i < end; ++i) {
+                                           const std::size_t part = i % parts;
+                                           fill_tile(i / parts, part, part * from_.count / parts,
+                                                     (part + 1) * from_.count / parts, scratch);
+                                       }
+                                   });
     }
 
     /// Whether all numbers of a panorama are finite.
@@ -342,9 +340,8 @@ private:
                         const int row = at.row + i;
                         boxes.filter(taps.reaches, static_cast<std::size_t>(i) * columns, columns,
                                      scratch.line);
-                        to.store(
-                            scratch.line, columns, positive_x ? -1 : 1,
-                            index_of(face, last_rows ? plan_.size - 1 - row : row, column));
+                        to.store(scratch.line, columns, positive_x ? -1 : 1,
+                                 index_of(face, last_rows ? plan_.size - 1 - row : row, column));
                     }
                 }
             }
@@ -415,21 +412,6 @@ private:
     std::vector<std::atomic<bool>> finite_;
 };
 
-void check_equirect(const EquirectPixels& from, int size) {
-    const bool borders = from.sampling == Sampling::borders;
-    const bool good = borders ? from.width >= 2 && from.height >= 2
-                              : from.height >= 1 && from.width == 2 * from.height;
-    if (!good) {
-        throw std::invalid_argument(std::string("equirect: expected a picture ") +
-                                    (borders ? "of at least 2 x 2" : "twice as wide as high") +
-                                    ", got width " + std::to_string(from.width) + " and height " +
-                                    std::to_string(from.height));
-    }
-    if (size < 1) {
-        throw std::invalid_argument("size: expected at least 1, got " + std::to_string(size));
-    }
-}
-
 /// Converts again the pictures whose numbers are not all finite.
 void convert_without_infinities(EquirectToCubePlan& plan, const EquirectPixels& from, DType to,
                                 std::byte* cubes, const EquirectsToCubes& conversion) {
@@ -452,6 +434,21 @@ void convert_without_infinities(EquirectToCubePlan& plan, const EquirectPixels& 
 }
 
 }  // namespace
+
+void check_equirect(const EquirectPixels& from, int size) {
+    const bool borders = from.sampling == Sampling::borders;
+    const bool good = borders ? from.width >= 2 && from.height >= 2
+                              : from.height >= 1 && from.width == 2 * from.height;
+    if (!good) {
+        throw std::invalid_argument(std::string("equirect: expected a picture ") +
+                                    (borders ? "of at least 2 x 2" : "twice as wide as high") +
+                                    ", got width " + std::to_string(from.width) + " and height " +
+                                    std::to_string(from.height));
+    }
+    if (size < 1) {
+        throw std::invalid_argument("size: expected at least 1, got " + std::to_string(size));
+    }
+}
 
 void equirect_to_cube(const EquirectPixels& from, int size, DType to, std::byte* cubes) {
     check_equirect(from, size);

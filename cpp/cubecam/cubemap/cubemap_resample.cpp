@@ -49,10 +49,9 @@ void resample_all(const CubePixels& cube, Sampling from, int size, Sampling to,
         face_taps(cube.size, from, size, to, column, column_end, 1, scratch.across);
         face_taps(cube.size, from, size, to, row, std::min(row + band, size), count, down);
         FaceReader reader(cube);
-        scratch.filtered.fill(down.range(), scratch.across, cube.channels,
-                              [&](int at, int begin, int end) {
-                                  return reader.read(face, at, begin, end);
-                              });
+        scratch.filtered.fill(
+            down.range(), scratch.across, cube.channels,
+            [&](int at, int begin, int end) { return reader.read(face, at, begin, end); });
         std::size_t index = (face_index(face) * n + static_cast<std::size_t>(row)) * n +
                             static_cast<std::size_t>(column);
         for (std::size_t tap = 0; tap < down.size(); tap += count, index += n) {
@@ -63,15 +62,16 @@ void resample_all(const CubePixels& cube, Sampling from, int size, Sampling to,
             target.store(scratch.line, count, 1, index);
         }
     };
-    parallel_for_with<Scratch>(
-        0, static_cast<std::size_t>(face_count * bands), 1,
-        [&](std::size_t begin, std::size_t end, Scratch& scratch) {
-            for (std::size_t i = begin; i < end; ++i) {
-                const Face face = all_faces[i / static_cast<std::size_t>(bands)];
-                const int row = static_cast<int>(i) % bands * band;
-                for (int span = 0; span < spans; ++span) fill(face, row, span * tile_size, scratch);
-            }
-        });
+    parallel_for_with<Scratch>(0, static_cast<std::size_t>(face_count * bands), 1,
+                               [&](std::size_t begin, std::size_t end, Scratch& scratch) {
+                                   for (std::size_t i = begin; i < end; ++i) {
+                                       const Face face =
+                                           all_faces[i / static_cast<std::size_t>(bands)];
+                                       const int row = static_cast<int>(i) % bands * band;
+                                       for (int span = 0; span < spans; ++span)
+                                           fill(face, row, span * tile_size, scratch);
+                                   }
+                               });
 }
 
 void check_face_size(int size, Sampling sampling) {

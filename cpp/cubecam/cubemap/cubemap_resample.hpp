@@ -46,7 +46,7 @@ struct EquirectPixels {
     const std::byte* pixels;  ///< [height][width][channels]
     int width;
     int height;
-    int channels;
+    int channels;  ///< 1 to 4
     DType dtype;
     Center center = Center::neg_z;
     Sampling sampling = Sampling::centers;
@@ -69,14 +69,20 @@ public:
 // is clamped to 0..1 and rounded to nearest; a float16 result is rounded to nearest and becomes inf
 // from 65520 on.
 
+/// @throws std::invalid_argument unless width = 2 height (with borders: unless both are at least 2)
+///         and size is at least 1.
+void check_equirect(const EquirectPixels& from, int size);
+
 /// Returns [6][size][size][channels], "gl". Each inf counts as the largest finite number of the
 /// picture, at least 65504 (the largest half float: most infinities come from half floats).
-/// @throws std::invalid_argument unless width = 2 height (with borders: unless both are at least
-///         2), channels is 1 to 4, size at least 1.
+/// @throws std::invalid_argument as check_equirect does.
 /// @throws FoundNan for a NaN anywhere in the panorama.
 std::shared_ptr<PixelBuffer> equirect_to_cube(const EquirectPixels& from, int size, DType to);
 /// The same for many panoramas of one size, into memory [count][6][size][size][channels].
 void equirect_to_cube(const EquirectPixels& from, int size, DType to, std::byte* cubes);
+
+/// The bytes of the taps that are kept for the next conversion of the same sizes (tap_cache.hpp).
+std::size_t kept_tap_bytes();
 
 /// Returns the face size that loses no detail: the smallest power of two that is at least width /
 /// pi.

@@ -30,8 +30,8 @@ struct PanoramaColumn {
 };
 
 /// One row of a panorama on +Y or -Y, where the destination's texels are turned against the texels
-/// of the face. Such a texel is sampled at several points: in each direction as many as it is texels
-/// long.
+/// of the face. Such a texel is sampled at several points: in each direction as many as it is
+/// texels long.
 struct PoleRow {
     struct Sample {
         float cosine;  ///< of the turn round the pole, times the radius
@@ -239,17 +239,15 @@ public:
 
     void run() {
         const std::size_t tiles = plan_.tiles();
-        // Enough pieces for all threads; within a piece the taps of a tile serve many cubes.
-        const std::size_t parts =
-            std::min(from_.count, (4 * worker_count() + tiles - 1) / tiles);
-        parallel_for_with<Scratch>(
-            0, tiles * parts, 1, [&](std::size_t begin, std::size_t end, Scratch& scratch) {
-                for (std::size_t i = begin; i < end; ++i) {
-                    const std::size_t part = i % parts;
-                    fill_tile(i / parts, part, part * from_.count / parts,
-                              (part + 1) * from_.count / parts, scratch);
-                }
-            });
+        const std::size_t parts = batch_parts(from_.count, tiles);
+        parallel_for_with<Scratch>(0, tiles * parts, 1,
+                                   [&](std::size_t begin, std::size_t end, Scratch& scratch) {
+                                       for (std::size_t i = begin; i < end; ++i) {
+                                           const std::size_t part = i % parts;
+                                           fill_tile(i / parts, part, part * from_.count / parts,
+                                                     (part + 1) * from_.count / parts, scratch);
+                                       }
+                                   });
     }
 
 private:
@@ -277,8 +275,8 @@ private:
         const TileTaps& taps;
         CubePixels cube;
         TexelTarget to;
-        int first;             ///< the first column
-        PoleTexels poles[2];   ///< +Y, -Y
+        int first;            ///< the first column
+        PoleTexels poles[2];  ///< +Y, -Y
     };
 
     /// Fills a tile of the panoramas begin..end.
@@ -311,10 +309,9 @@ private:
         const Face face = plan_.column(job.first).face;
         FaceReader reader(job.cube);
         if (down.size() != 0) {
-            scratch.filtered.fill(down.range(), across, from_.channels,
-                                  [&](int row, int begin, int end) {
-                                      return reader.read(face, row, begin, end);
-                                  });
+            scratch.filtered.fill(
+                down.range(), across, from_.channels,
+                [&](int row, int begin, int end) { return reader.read(face, row, begin, end); });
         }
         for (const bool up : {true, false}) prepare_pole(up, job, reader, scratch);
         const std::size_t columns = job.at.columns();
@@ -360,8 +357,7 @@ private:
         pole.face = up ? Face::pos_y : Face::neg_y;
         const std::size_t count = job.at.columns();
         const float turn = up ? 1.0f : -1.0f;
-        const TapRange columns =
-            plan_.pole_range(row, row_end, plan_.x(job.first), count, 1.0f);
+        const TapRange columns = plan_.pole_range(row, row_end, plan_.x(job.first), count, 1.0f);
         const TapRange rows = plan_.pole_range(row, row_end, plan_.z(job.first), count, turn);
         const auto texel = from_.channels * static_cast<std::ptrdiff_t>(sizeof(float));
         const std::ptrdiff_t face_row = plan_.size * texel;
@@ -408,7 +404,8 @@ private:
         std::fill_n(places.outside, tile_size, 0);
         const bool one = samples.size() == 1;
         const auto place = [&](const PoleRow::Sample& at) {
-            place_bilinear(plan_.x(column), plan_.z(column), at.cosine, at.sine, pole.plane, places);
+            place_bilinear(plan_.x(column), plan_.z(column), at.cosine, at.sine, pole.plane,
+                           places);
         };
         place(samples[0]);
         look_bilinear(pole.texels, places, count, one ? to : scratch.first);
@@ -425,7 +422,8 @@ private:
         }
         int any = 0;
         for (const std::int32_t each : places.outside) any |= each;
-        if (any == 0) [[likely]] return;
+        if (any == 0) [[likely]]
+            return;
         for (std::size_t i = 0; i < count; ++i) {
             if (places.outside[i] == 0) continue;
             to[i] = sample_texel(job, row, column + static_cast<int>(i));
@@ -458,9 +456,9 @@ private:
                 const FaceUv<float> uv = direction_to_face_uv(d);
                 found = job.cube.bilinear(uv.face, uv.s, uv.t);
             } else {
-                found = job.cube.between(d.y > 0 ? Face::pos_y : Face::neg_y,
-                                         d.x * half_texels + middle,
-                                         d.y * d.z * half_texels + middle);
+                found =
+                    job.cube.between(d.y > 0 ? Face::pos_y : Face::neg_y,
+                                     d.x * half_texels + middle, d.y * d.z * half_texels + middle);
             }
             if (begun) {
                 sum += found - one;

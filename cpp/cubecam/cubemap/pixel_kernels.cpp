@@ -23,75 +23,12 @@ constexpr std::size_t piece = 64;  ///< texels that are converted at a time
     return bad == 0;
 }
 
-/// Sixteen numbers. Functions take them by reference, as in box_kernels.cpp.
-typedef float Floats __attribute__((vector_size(64)));
-typedef std::uint32_t Words __attribute__((vector_size(64)));
-typedef std::int32_t Ints __attribute__((vector_size(64)));
-typedef std::uint16_t Halves __attribute__((vector_size(32)));
-typedef std::uint8_t Bytes __attribute__((vector_size(16)));
-constexpr std::size_t lane_count = 16;
-
-/// As half_to_float.
-[[gnu::always_inline]] inline void convert(const Halves& from, Floats& to) {
-    constexpr std::uint32_t exponent_mask = 0x7c00u << 13;
-    const Words half = __builtin_convertvector(from, Words);
-    Words bits = (half & 0x7fffu) << 13;
-    const Words exponent = bits & exponent_mask;
-    bits += (127u - 15u) << 23;
-    const Words special = bits + ((128u - 16u) << 23);
-    const Floats small = reinterpret_cast<Floats>(bits + (1u << 23)) - 0x1p-14f;
-    bits = exponent == exponent_mask ? special
-           : exponent == 0           ? reinterpret_cast<Words>(small)
-                                     : bits;
-    to = reinterpret_cast<Floats>(bits | (half & 0x8000u) << 16);
-}
-
-/// As float_to_unorm8.
-[[gnu::always_inline]] inline void convert(const Floats& from, Bytes& to) {
-    const Floats positive = from > 0.0f ? from : Floats{};  // NaN gives 0
-    const Floats one = Floats{} + 1.0f;
-    const Floats clamped = positive < 1.0f ? positive : one;
-    to = __builtin_convertvector(__builtin_convertvector(clamped * 255.0f + 0.5f, Ints), Bytes);
-}
-
-/// As float_to_half.
-[[gnu::always_inline]] inline void convert(const Floats& from, Halves& to) {
-    const Words all = reinterpret_cast<Words>(from);
-    const Words sign = all & 0x80000000u;
-    const Words bits = all ^ sign;
-    const Words nan = Words{} + 0x7e00u;
-    const Words infinity = Words{} + 0x7c00u;
-    const Words special = bits > 0x7f800000u ? nan : infinity;
-    const Words small = reinterpret_cast<Words>(reinterpret_cast<Floats>(bits) + 0.5f) -
-                        std::bit_cast<std::uint32_t>(0.5f);
-    const Words normal = (bits + ((15u - 127u) << 23) + 0xfffu + ((bits >> 13) & 1u)) >> 13;
-    const Words half = bits >= ((127u + 16u) << 23)  ? special
-                       : bits < ((127u - 14u) << 23) ? small
-                                                     : normal;
-    to = __builtin_convertvector(half | (sign >> 16), Halves);
-}
-
-template <typename From, typename To, typename Source, typename Target>
-[[gnu::always_inline]] inline void convert_row(const Source* from, std::size_t count, Target* to) {
-    static_assert(sizeof(From) == lane_count * sizeof(Source));
-    static_assert(sizeof(To) == lane_count * sizeof(Target));
-    From given{};
-    To made;
-    std::size_t i = 0;
-    for (; i + lane_count <= count; i += lane_count) {
-        std::memcpy(&given, from + i, sizeof given);
-        convert(given, made);
-        std::memcpy(to + i, &made, sizeof made);
-    }
-    if (i == count) return;
-    std::memcpy(&given, from + i, (count - i) * sizeof(Source));
-    convert(given, made);
-    std::memcpy(to + i, &made, (count - i) * sizeof(Target));
-}
+// Plain loops, which the compiler turns into SIMD for each processor: of vector types that are
+// wider than the processor's, GCC makes scalar code.
 
 /// value / 255 as the division rounds it, without a division: 1/255 has parts of 9 and 24 bits. The
 /// product with the first part has no rounding error, and the sum is rounded once. `count` is a
-/// multiple of byte_block. (A plain loop: of vector types GCC 12 makes scalar code here.)
+/// multiple of byte_block.
 constexpr std::size_t byte_block = 32;
 [[gnu::always_inline]] inline void byte_blocks(const std::uint8_t* from, std::size_t count,
                                                float* __restrict to) {
@@ -113,6 +50,25 @@ constexpr std::size_t byte_block = 32;
     std::memcpy(rest, from + whole, count - whole);
     byte_blocks(rest, byte_block, made);
     std::memcpy(to + whole, made, (count - whole) * sizeof(float));
+}
+
+[[gnu::always_inline]] inline void halves_to_floats(const std::uint16_t* from, std::size_t count,
+                                                    float* __restrict to) {
+    for (std::size_t i = 0; i < count; ++i) to[i] = half_to_float(from[i]);
+}
+
+[[gnu::always_inline]] inline void floats_to_bytes(const float* from, std::size_t count,
+                                                   std::uint8_t* __restrict to) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float positive = from[i] > 0.0f ? from[i] : 0.0f;  // NaN gives 0
+        const float clamped = positive < 1.0f ? positive : 1.0f;
+        to[i] = static_cast<std::uint8_t>(static_cast<std::int32_t>(clamped * 255.0f + 0.5f));
+    }
+}
+
+[[gnu::always_inline]] inline void floats_to_halves(const float* from, std::size_t count,
+                                                    std::uint16_t* __restrict to) {
+    for (std::size_t i = 0; i < count; ++i) to[i] = float_to_half(from[i]);
 }
 
 /// Writes the first lanes of texels as floats in order of memory.
@@ -144,11 +100,9 @@ template <int channels>
             std::byte* const first =
                 step > 0 ? to + begin * texel : to - (begin + length - 1) * texel;
             if (dtype == DType::uint8) {
-                convert_row<Floats, Bytes>(line, length * channels,
-                                           reinterpret_cast<std::uint8_t*>(first));
+                floats_to_bytes(line, length * channels, reinterpret_cast<std::uint8_t*>(first));
             } else {
-                convert_row<Floats, Halves>(line, length * channels,
-                                            reinterpret_cast<std::uint16_t*>(first));
+                floats_to_halves(line, length * channels, reinterpret_cast<std::uint16_t*>(first));
             }
         }
     }
@@ -167,7 +121,7 @@ CUBECAM_CLONES bool row_to_floats(DType dtype, const std::byte* pixels, std::siz
         return true;
     }
     if (dtype == DType::float16) {
-        convert_row<Halves, Floats>(reinterpret_cast<const std::uint16_t*>(pixels), count, to);
+        halves_to_floats(reinterpret_cast<const std::uint16_t*>(pixels), count, to);
     } else {
         std::memcpy(to, pixels, count * sizeof(float));
     }
@@ -175,22 +129,16 @@ CUBECAM_CLONES bool row_to_floats(DType dtype, const std::byte* pixels, std::siz
 }
 
 CUBECAM_CLONES bool all_finite_texels(const Float4* texels, std::size_t count, int channels) {
-    Floats sums[2] = {};  // of x - x, which is 0 or NaN
+    constexpr std::size_t chains = 4;
+    Float4 sums[chains] = {};  // of x - x, which is 0 or NaN
     std::size_t i = 0;
-    for (; i + 8 <= count; i += 8) {
-        for (std::size_t k = 0; k < 2; ++k) {
-            Floats four;
-            std::memcpy(&four, texels + i + 4 * k, sizeof four);
-            sums[k] += four - four;
-        }
+    for (; i + chains <= count; i += chains) {
+        for (std::size_t k = 0; k < chains; ++k) sums[k] += texels[i + k] - texels[i + k];
     }
-    Float4 sum = {};
-    for (; i < count; ++i) sum += texels[i] - texels[i];
-    const Floats both = sums[0] + sums[1];
+    for (; i < count; ++i) sums[0] += texels[i] - texels[i];
+    const Float4 sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
     bool good = true;
-    for (int c = 0; c < channels; ++c) {
-        good &= sum[c] + both[c] + both[c + 4] + both[c + 8] + both[c + 12] == 0.0f;
-    }
+    for (int c = 0; c < channels; ++c) good &= sum[c] == 0.0f;
     return good;
 }
 

@@ -1,9 +1,9 @@
 /// The parts of resampling, which works tile by tile: copied or filtered pieces of the source. Only
 /// the .cpp files of cubemap/ include this header.
 ///
-/// The source is a `read(row, begin, end)`, which returns the numbers of texels begin..end of a row,
-/// also of those beyond the edges, with three more floats behind them that may be read. They stay
-/// until the next call.
+/// The source is a `read(row, begin, end)`, which returns the numbers of texels begin..end of a
+/// row, also of those beyond the edges, with three more floats behind them that may be read. They
+/// stay until the next call.
 #pragma once
 
 #include "cubecam/cubemap/box_kernels.hpp"
@@ -87,7 +87,8 @@ struct TexelTarget {
 /// Computes again, by exact(i), the channels of texels that are not finite.
 template <typename Exact>
 void mend_texels(Float4* texels, std::size_t count, int channels, const Exact& exact) {
-    if (all_finite_texels(texels, count, channels)) [[likely]] return;
+    if (all_finite_texels(texels, count, channels)) [[likely]]
+        return;
     for (std::size_t i = 0; i < count; ++i) {
         bool good = true;
         for (int c = 0; c < channels; ++c) good &= is_finite<1>(texels[i][c]);

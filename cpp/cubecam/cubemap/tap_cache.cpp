@@ -99,4 +99,6 @@ TapCache& TapCache::instance() {
     return cache;
 }
 
+std::size_t kept_tap_bytes() { return TapCache::instance().bytes(); }
+
 }  // namespace cubecam

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "cubecam/core/memory.hpp"
+#include "cubecam/core/parallel.hpp"
 #include "cubecam/cubemap/cubemap_resample.hpp"
 #include "cubecam/cubemap/tap_list.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -83,8 +85,16 @@ private:
     std::uint64_t calls_ = 0;
 };
 
-/// Returns the plan for a key: one that is kept, or what `make()` returns. The second time, its taps
-/// are to be kept: `fresh` is true then, and the caller gives the filled plan to the cache.
+/// In how many parts a batch of pictures is cut, so that with all tiles there are enough pieces for
+/// all threads. The taps of a tile serve all pictures of a part; a part is small enough for Ctrl-C.
+inline std::size_t batch_parts(std::size_t pictures, std::size_t tiles) {
+    constexpr std::size_t most = 16;
+    const std::size_t pieces = 4 * worker_count();
+    return std::min(pictures, std::max((pieces + tiles - 1) / tiles, (pictures + most - 1) / most));
+}
+
+/// Returns the plan for a key: one that is kept, or what `make()` returns. The second time, its
+/// taps are to be kept: `fresh` is true then, and the caller gives the filled plan to the cache.
 template <typename Plan, typename Make>
 std::shared_ptr<Plan> plan_for(const TapKey& key, const Make& make, bool& fresh) {
     bool wanted = false;

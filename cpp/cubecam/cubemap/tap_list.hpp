@@ -1,5 +1,5 @@
-/// Lists of taps, which the conversions make once for each tile of their result. Only the .cpp files
-/// of cubemap/ include this header.
+/// Lists of taps, which the conversions make once for each tile of their result. Only the .cpp
+/// files of cubemap/ include this header.
 #pragma once
 
 #include "cubecam/cubemap/box_filter.hpp"
