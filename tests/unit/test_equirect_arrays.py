@@ -102,7 +102,11 @@ def test_a_nan_anywhere_is_found(dtype, size, rng):
     """Also where boxes, which are as wide as a texel is at its middle, leave a gap."""
     height = 64
     image = pixels((height, 2 * height, 3), dtype)
-    places = [(0, 0, 0), (height - 1, 2 * height - 1, 2), (height // 2, height, 1)]
+    places: list[tuple[int, ...]] = [
+        (0, 0, 0),
+        (height - 1, 2 * height - 1, 2),
+        (height // 2, height, 1),
+    ]
     places += [tuple(int(rng.integers(n)) for n in image.shape) for _ in range(20)]
     for row, column, channel in places:
         spoiled = image.copy()
