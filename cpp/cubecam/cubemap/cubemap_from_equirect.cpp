@@ -262,7 +262,7 @@ private:
         FilteredRows filtered;
         SourceBlock block;
         Buffer<float> numbers;
-        alignas(64) Float4 line[tile_size + spare_taps];
+        alignas(64) Float4 line[tile_size];
     };
 
     /// Fills a tile of the pictures begin..end.
@@ -384,7 +384,6 @@ private:
                 }
                 return;
             }
-            // Each run may write three texels too many, which the next one writes again.
             for (std::size_t first = 0; first < count;) {
                 const Reach reach = reaches[begin + first];
                 std::size_t until = first + 1;

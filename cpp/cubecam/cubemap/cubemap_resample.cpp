@@ -36,7 +36,7 @@ void resample_all(const CubePixels& cube, Sampling from, int size, Sampling to,
         TapList down;
         TapList across;
         FilteredRows filtered;
-        alignas(64) Float4 line[tile_size + spare_taps];
+        alignas(64) Float4 line[tile_size];
     };
     constexpr int band = 32;  // rows of a face at a time
     const int bands = (size + band - 1) / band;

@@ -257,9 +257,9 @@ private:
         FilteredRows filtered;
         SourceBlock blocks[2];
         BilinearTaps places;
-        alignas(64) Float4 line[tile_size + spare_taps];
-        alignas(64) Float4 first[tile_size + spare_taps];
-        alignas(64) Float4 sum[tile_size + spare_taps];
+        alignas(64) Float4 line[tile_size];
+        alignas(64) Float4 first[tile_size];
+        alignas(64) Float4 sum[tile_size];
     };
 
     /// What a tile reads of +Y or -Y.
@@ -320,8 +320,7 @@ private:
             const auto on_pole = [&](std::size_t i) {
                 return down.size() == 0 || down.absent(taps + i);
             };
-            // The texels on the side face lie side by side. Each run may write three texels too
-            // many, which the next one writes again.
+            // The texels on the side face lie side by side.
             std::size_t begin = down.size() == 0 ? columns : 0;
             std::size_t end = columns;
             while (begin < end && on_pole(begin)) ++begin;

@@ -33,7 +33,7 @@ public:
     template <typename Read>
     void fill(const TapRange& rows, const TapList& across, int channels, const Read& read) {
         across_.set(across, channels * static_cast<std::ptrdiff_t>(sizeof(float)));
-        texels_.resize(rows.size() * tile_size + spare_taps);
+        texels_.resize(rows.size() * tile_size);
         Float4* to = texels_.data();
         for (int row = rows.begin; row < rows.end; ++row, to += tile_size) {
             filter_row(read(row, across.range().begin, across.range().end), across_, to);

@@ -16,9 +16,6 @@ namespace cubecam {
 /// Texels on an edge of a tile. The sources of such a tile fit into the cache of one core.
 inline constexpr int tile_size = 64;
 
-/// The kernels work on four texels at a time, and may read so many taps behind the last one.
-inline constexpr std::size_t spare_taps = 3;
-
 /// Range of texels [begin, end) that taps read.
 struct TapRange {
     std::int32_t begin = std::numeric_limits<std::int32_t>::max();
@@ -38,8 +35,7 @@ struct TapRange {
 class TapList {
 public:
     void resize(std::size_t count) {
-        taps_.resize(count + spare_taps);
-        for (std::size_t i = count; i < taps_.size(); ++i) taps_[i] = {0, 0, 0, 0};
+        taps_.resize(count);
         range_ = {};
         widest_ = 0;
     }
@@ -71,7 +67,7 @@ public:
         tap.first += range_.begin;
         return tap;
     }
-    std::size_t size() const { return taps_.empty() ? 0 : taps_.size() - spare_taps; }
+    std::size_t size() const { return taps_.size(); }
     const TapRange& range() const { return range_; }
     double widest() const { return widest_; }
     Reach reach() const { return reach_of(widest_); }
