@@ -75,7 +75,7 @@ format: $(VENV)/.deps-dev ## format Python and C++ in place
 stubs: $(VENV)/.installed $(VENV)/.deps-dev ## write python/cubecam/_core.pyi again from the built module
 	$(PY) scripts/stubs.py
 
-bench: $(VENV)/.installed $(VENV)/.deps-bench ## compare with moderngl, ZenGL and py360convert, print ratios
+bench: $(VENV)/.installed $(VENV)/.deps-bench ## compare with moderngl, ZenGL, py360convert and OpenCV, print ratios
 	@$(PY) -m benchmarks $(BENCH_ARGS)
 
 gpu-check: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-bench ## try the GPU: tests, benchmarks, readback, 1,000 probes, pictures, one JSON in out/gpu_check

@@ -1,4 +1,4 @@
-"""Equirect to cube and back, 2048 x 1024 and six 512 x 512 faces, float32, against py360convert."""
+"""Equirect to cube and back, 2048 x 1024 and six 512 x 512 faces, against py360convert and cv2.remap."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from . import remap
 from .results import Row, Section
 
 WIDTH, HEIGHT, FACE = 2048, 1024, 512
@@ -74,7 +75,12 @@ def _refused(section: Section, largest: float) -> Section:
 
 
 def run(quick: bool) -> list[Section]:
-    """Compare the pictures, except near the faces' edges, then time both directions in turns."""
+    """Time both directions in turns, against py360convert and against cv2.remap with ready maps."""
+    return [*_against_py360convert(quick), *remap.run(_picture(), FACE, quick)]
+
+
+def _against_py360convert(quick: bool) -> list[Section]:
+    """Compare the pictures, except near the faces' edges, then time both directions."""
     titles = {
         "e2c": "equirect 2048x1024 to cube 512, float32",
         "c2e": "cube 512 to equirect 2048x1024, float32",

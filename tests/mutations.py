@@ -21,6 +21,7 @@ class Mutation:
 CONVENTIONS = ("tests/unit/test_cubemap_conventions.py",)
 SAMPLE = ("tests/unit/test_cubemap_sample.py",)
 EQUIRECT = ("tests/unit/test_cubemap_equirect.py",)
+EQUIRECT_ARRAYS = ("tests/unit/test_equirect_arrays.py",)
 ORIENTATION = ("tests/gl/test_orientation.py",)
 CAPTURE = ("tests/gl/test_capture.py",)
 FRAMES = ("tests/gl/test_frames.py",)
@@ -1778,16 +1779,94 @@ MUTATIONS = [
     ),
     Mutation(
         "equirect: rows beyond a pole not turned",
-        "cubemap_from_equirect.cpp",
+        "equirect_reader.hpp",
         "column += period / 2;",
         "column += 0;",
         EQUIRECT,
     ),
     Mutation(
+        "equirect: texels of gaps between boxes not looked at for NaN",
+        "tap_list.hpp",
+        "range_.include({floor_to_int(center + 0.5), -1, 0, 0});",
+        "static_cast<void>(center);",
+        EQUIRECT_ARRAYS,
+    ),
+    Mutation(
+        "equirect: NaN in texels in place not found",
+        "equirect_reader.hpp",
+        "finite_ &= all_finite_row(there, static_cast<std::size_t>(end - begin) * channels_);",
+        "",
+        EQUIRECT_ARRAYS,
+    ),
+    Mutation(
+        "equirect: one infinity, all pictures of a batch again as one",
+        "cubemap_from_equirect.cpp",
+        "if (conversion.finite(i)) continue;",
+        "",
+        EQUIRECT_ARRAYS,
+    ),
+    Mutation(
+        "equirect: all pictures of a batch the first one",
+        "cubemap_from_equirect.cpp",
+        "from_.pixels + i * texels * channels * dtype_size(from_.dtype);",
+        "from_.pixels + 0 * texels * channels * dtype_size(from_.dtype);",
+        EQUIRECT_ARRAYS,
+    ),
+    Mutation(
+        "equirect: the turns of poles of lookups in float lost",
+        "box_kernels.cpp",
+        "const float row = at.turn * turned_z * at.scale + at.middle;",
+        "const float row = turned_z * at.scale + at.middle;",
+        EQUIRECT,
+    ),
+    Mutation(
+        "taps kept without bound",
+        "tap_cache.cpp",
+        "if (sum > capacity || entry.used + patience < calls_) break;",
+        "",
+        EQUIRECT_ARRAYS,
+    ),
+    Mutation(
+        "taps kept of every conversion",
+        "tap_cache.cpp",
+        "wanted = found != entries_.end();\n    if (wanted) {",
+        "wanted = true;\n    if (found != entries_.end()) {",
+        EQUIRECT_ARRAYS,
+    ),
+    Mutation(
+        "taps of another center",
+        "tap_cache.hpp",
+        "bool operator==(const TapKey&) const = default;",
+        "bool operator==(const TapKey& b) const {\n"
+        "        return to_cube == b.to_cube && width == b.width && size == b.size;\n    }",
+        EQUIRECT_ARRAYS,
+    ),
+    Mutation(
+        "memory: reserves not freed",
+        "core/memory.cpp",
+        "if (const auto free_reserve = each.load()) freed += free_reserve();",
+        "",
+        EQUIRECT_ARRAYS,
+    ),
+    Mutation(
+        "equirect: out may be the memory of the pictures",
+        "bind_equirect_arrays.cpp",
+        'if (py::module_::import("numpy").attr("may_share_memory")',
+        'if (false && py::module_::import("numpy").attr("may_share_memory")',
+        EQUIRECT_ARRAYS,
+    ),
+    Mutation(
+        "bytes as floats: not rounded as a division",
+        "pixel_kernels.cpp",
+        "to[i] = value * high + value * low;",
+        "to[i] = value * (high + low);",
+        ("tests/unit/test_cubemap_dtypes.py",),
+    ),
+    Mutation(
         "equirect: side faces alike at every even width",
-        "cubemap_resample.cpp",
-        "width_ % 8 == 0",
-        "width_ % 2 == 0",
+        "cubemap_to_equirect.cpp",
+        "width % 8 == 0",
+        "width % 2 == 0",
         EQUIRECT,
     ),
     Mutation(

@@ -321,7 +321,8 @@ DType to_dtype(py::handle value, DType otherwise) {
     throw py::value_error(expected + shortened(py::str(*given).cast<std::string>()));
 }
 
-PixelArray pixel_array(py::handle value, const char* name, std::string_view shape, Values values) {
+PixelArray pixel_array(py::handle value, const char* name, std::string_view shape, Values values,
+                       Channels counts) {
     const py::array array = real_array(value, name);
     const char kind = array.dtype().kind();
     if (kind != 'f' && !(kind == 'u' && array.itemsize() == 1)) {
@@ -334,10 +335,11 @@ PixelArray pixel_array(py::handle value, const char* name, std::string_view shap
     }
     check_shape(array, name, shape);
     const py::ssize_t channels = array.ndim() > 0 ? array.shape(array.ndim() - 1) : 0;
-    if (channels != 1 && channels != 3 && channels != 4) {
-        throw py::value_error(std::string(name) +
-                              ": expected 1, 3 or 4 channels on the last axis, got " +
-                              std::to_string(channels) + " (shape " + shape_text(array) + ")");
+    const bool two = counts == Channels::up_to_four;
+    if (channels < 1 || channels > 4 || (channels == 2 && !two)) {
+        throw py::value_error(std::string(name) + ": expected " + (two ? "1 to 4" : "1, 3 or 4") +
+                              " channels on the last axis, got " + std::to_string(channels) +
+                              " (shape " + shape_text(array) + ")");
     }
 
     const auto checked = [&]() -> PixelArray {
@@ -374,10 +376,12 @@ void check_not_nan(const PixelArray& pixels, const char* name) {
             }
         }
     });
-    if (first < count) {
-        throw py::value_error(std::string(name) + ": expected no NaN, got nan at " +
-                              index_text(pixels.array(), first));
-    }
+    if (first < count) refuse_nan(pixels, name, first);
+}
+
+void refuse_nan(const PixelArray& pixels, const char* name, std::size_t index) {
+    throw py::value_error(std::string(name) + ": expected no NaN, got nan at " +
+                          index_text(pixels.array(), index));
 }
 
 glm::dvec3 to_vec3(py::handle value, const char* name) {

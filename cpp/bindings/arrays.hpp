@@ -104,9 +104,15 @@ private:
     std::size_t bytes_;
 };
 
-/// Pixels of a shape whose last axis is that of the channels: 1, 3 or 4.
+/// Numbers of channels: those of a cubemap (1, 3 or 4), or 1 to 4.
+enum class Channels { of_cubemap, up_to_four };
+
+/// Pixels of a shape whose last axis is that of the channels.
 PixelArray pixel_array(py::handle value, const char* name, std::string_view shape,
-                       Values values = Values::not_nan);
+                       Values values = Values::not_nan, Channels channels = Channels::of_cubemap);
+
+/// Raises ValueError for a NaN at a place that was found.
+[[noreturn]] void refuse_nan(const PixelArray& pixels, const char* name, std::size_t index);
 
 /// Raises ValueError that names the first NaN. The search runs on all cores, since pictures are
 /// large.

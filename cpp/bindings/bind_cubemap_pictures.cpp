@@ -4,6 +4,7 @@
 #include "docs/cubemap.hpp"
 #include "encodings.hpp"
 #include "numbers.hpp"
+#include "sampling_name.hpp"
 #include "unlocked.hpp"
 #include "values.hpp"
 
@@ -25,17 +26,6 @@ namespace cubecam::bindings {
 namespace {
 
 using DTypeOrNone = OneOf<DTypeLike, py::none>;
-
-constexpr NameTable<Sampling, 2> sampling_names{
-    {{"centers", Sampling::centers}, {"borders", Sampling::borders}}};
-using SamplingName = Choice<sampling_names>;
-
-Sampling parse_sampling(std::string_view name) {
-    const std::size_t place = place_of_name(sampling_names, name);
-    if (place < sampling_names.size()) return sampling_names[place].second;
-    throw py::value_error("sampling: expected " + quoted_names(sampling_names) + ", got '" +
-                          shortened(name) + "'");
-}
 
 /// Raises ValueError for a picture that memory cannot hold.
 void check_picture(double width, double height, int channels, DType dtype) {
@@ -71,12 +61,13 @@ PixelsOrOutput to_equirect(const CubeMap& cube, Argument<std::optional<int>> wid
     const DType to = to_dtype(dtype, state->dtype);
     const int columns = to_texels(width.value_or(4 * state->size), "width");
     check_picture(columns, columns / 2.0, state->channels, to);
-    PixelBuffer pixels;
+    std::shared_ptr<PixelBuffer> pixels;
     {
         const Unlocked unlocked;
         pixels = cube_to_equirect(*state, columns, center, sampling, to);
     }
-    return owned_pixels(std::move(pixels), to, {columns / 2, columns, state->channels});
+    return owned_pixels(std::move(pixels), numpy_dtype(to),
+                        {columns / 2, columns, state->channels});
 }
 
 CubePtr from_equirect(const PixelArray& image, std::optional<int> size, Center center, bool mipmaps,
@@ -86,11 +77,16 @@ CubePtr from_equirect(const PixelArray& image, std::optional<int> size, Center c
     const auto channels = static_cast<int>(image.shape(2));
     const int n = to_texels(size.value_or(default_face_size(width)), "size");
     check_picture(n, 6.0 * n, channels, to);
-    const Unlocked unlocked;
-    PixelBuffer faces = equirect_to_cube(
-        {image.data(), width, height, channels, image.dtype(), center, sampling}, n, to);
-    return std::make_shared<CubeMap>(n, channels, to, std::move(faces), mipmaps, OutputList(),
-                                     encoding);
+    try {
+        const Unlocked unlocked;
+        return std::make_shared<CubeMap>(
+            n, channels, to,
+            equirect_to_cube(
+                {image.data(), width, height, channels, image.dtype(), center, sampling}, n, to),
+            mipmaps, OutputList(), encoding);
+    } catch (const FoundNan& found) {
+        refuse_nan(image, "image", found.index);
+    }
 }
 
 CubePtr from_layout(const ArrayLike& value, const std::optional<LayoutName>& layout_name,
@@ -99,7 +95,7 @@ CubePtr from_layout(const ArrayLike& value, const std::optional<LayoutName>& lay
                     const EncodingName& encoding_name) {
     const Convention convention = parse_convention(convention_name);
     const Center center = parse_center(center_name);
-    const PixelArray image = pixel_array(value, "image", "(H, W, C)");
+    const PixelArray image = pixel_array(value, "image", "(H, W, C)", Values::any);
     const DType to = to_dtype(dtype, image.dtype());
     const Encoding encoding = to_encoding(encoding_name, value, image.dtype());
     const int height = to_texels(image.shape(0), "image");
@@ -109,6 +105,7 @@ CubePtr from_layout(const ArrayLike& value, const std::optional<LayoutName>& lay
     if (layout == Layout::equirect) {
         return from_equirect(image, size, center, mipmaps, Sampling::centers, to, encoding);
     }
+    check_not_nan(image, "image");
     if (size) throw py::value_error("size: expected only with an equirect; see CubeMap.resize");
     const bool openexr = layout == Layout::openexr;
     const Layout cells = openexr ? Layout::column : layout;
@@ -242,7 +239,8 @@ void bind_cubemap_pictures(Class<CubeMap>& cube) {
             [](const ArrayLike& image, Argument<std::optional<int>> size, const CenterName& center,
                const SamplingName& sampling, Flag mipmaps, const DTypeOrNone& dtype,
                const EncodingName& encoding) {
-                const PixelArray pixels = pixel_array(image, "image", "(H, W, C)");
+                // The filter finds a NaN.
+                const PixelArray pixels = pixel_array(image, "image", "(H, W, C)", Values::any);
                 return from_equirect(pixels, size, parse_center(center), mipmaps,
                                      parse_sampling(sampling), to_dtype(dtype, pixels.dtype()),
                                      to_encoding(encoding, image, pixels.dtype()));

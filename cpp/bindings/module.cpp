@@ -22,6 +22,7 @@ void bind_arrays(pybind11::module_& module);
 void bind_errors(pybind11::module_& module);
 void bind_device(pybind11::module_& module);
 void bind_cubemap(pybind11::module_& module);
+void bind_equirect_arrays(pybind11::module_& module);
 void bind_lighting(pybind11::module_& module);
 void bind_image(pybind11::module_& module);
 void bind_radiance(pybind11::module_& module);
@@ -114,6 +115,7 @@ PYBIND11_MODULE(_core, module) {
     declare<Scene>(module, "Scene", nullptr);
 
     bind_cubemap(module);
+    bind_equirect_arrays(module);
     bind_lighting(module);
     bind_image(module);
     bind_radiance(module);

@@ -3,10 +3,10 @@
 
 #include "check.hpp"
 
+#include "cubecam/image/result_pool.hpp"
 #include "cubecam/render/passes/output_declarations.hpp"
 #include "cubecam/render/resources/outputs.hpp"
 #include "cubecam/render/resources/repack.hpp"
-#include "cubecam/render/resources/result_pool.hpp"
 
 #include <cstdint>
 #include <memory>

@@ -73,3 +73,42 @@ def equirect_to_faces(image, size, center="-z"):
 def faces_to_equirect(faces, width, center="-z"):
     """One lookup per pixel, which is right only where a pixel is no larger than a texel of the faces."""
     return sample_faces(faces, pixel_directions(width, width // 2, center))
+
+
+def box_weights(begin, end, texels):
+    """(..., 3 n) shares of the texels -n to 2 n in boxes from `begin` to `end`; texel i lies from i to i + 1."""
+    low = np.arange(-texels, 2 * texels)
+    overlap = np.minimum(end[..., None], low + 1) - np.maximum(begin[..., None], low)
+    return np.clip(overlap, 0, None) / (end - begin)[..., None]
+
+
+def equirect_boxes(image, size, center="-z"):
+    """Average the picture over a box for each texel of the faces, in float64.
+
+    The box lies along rows and columns, and is as high and as wide as the texel is at its middle, but at least one
+    pixel. The columns are a ring; beyond a pole, the rows continue on the other side.
+    """
+    image = to_float(image)
+    height, width = image.shape[:2]
+    d = texel_directions(size)
+    u, v = direction_to_equirect_uv(d, center)
+    level = np.hypot(d[..., 0], d[..., 2])
+    up = np.abs(d[..., 1])
+    a = np.sqrt(np.clip(level**2 - 1, 0, None))  # on a side face
+    pole = np.zeros(d.shape[:-1], bool)
+    pole[2:4] = True
+    texel = 2 / size
+    high = np.where(pole, texel / (1 + level**2), texel * level / (level**2 + up**2))
+    with np.errstate(divide="ignore"):
+        wide = np.where(pole, np.minimum(texel / level, 2 * np.pi), texel / (1 + a**2))
+    high = np.maximum(high * height / np.pi, 1)
+    wide = np.maximum(wide * width / (2 * np.pi), 1)
+    columns = box_weights(u * width - wide / 2, u * width + wide / 2, width)
+    columns = columns.reshape(*u.shape, 3, width).sum(-2)
+    rows = box_weights(v * height - high / 2, v * height + high / 2, height)
+    north, inside, south = np.moveaxis(rows.reshape(*u.shape, 3, height), -2, 0)
+    beyond = (north + south)[..., ::-1]
+    over = np.roll(image, width // 2, axis=1)
+    return np.einsum("fijh,fijw,hwc->fijc", inside, columns, image) + np.einsum(
+        "fijh,fijw,hwc->fijc", beyond, columns, over
+    )

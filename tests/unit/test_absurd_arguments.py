@@ -114,6 +114,8 @@ NEEDED: dict[str, Any] = {
     "Scene.show": lambda: {"where": "offscreen", "size": (8, 8)},
     "CubeMap": lambda: {"faces": FACES},
     "CubeMap.from_equirect": lambda: {"image": PICTURE, "size": 1},
+    "equirect_to_faces": lambda: {"images": PICTURE[None], "size": 1},
+    "faces_to_equirect": lambda: {"faces": FACES, "width": 2},
     "CubeMap.to_perspective": lambda: {"fov": 60, "size": 2},
     "CubeMap.from_perspective": lambda: {"image": PICTURE, "fov": 60, "size": 1},
     "CubeMap.from_cylindrical": lambda: {"image": PICTURE, "size": 1},

@@ -79,6 +79,7 @@ VALUES: dict[str, Any] = {
     "values": [[1.0, 2.0, 3.0]] * 3,
     "inverse_bind_matrices": np.eye(4)[None],
     "image": PICTURE,
+    "images": PICTURE,
     "map": PICTURE,
     "pixels": PICTURE,
     "picture": PICTURE,

@@ -58,6 +58,8 @@ BY_POSITION = {
     "PerspectiveCamera.from_intrinsics": ["K", "size"],
     "CubeMap": ["faces"],
     "CubeMap.from_equirect": ["image"],
+    "equirect_to_faces": ["images"],
+    "faces_to_equirect": ["faces"],
     "load_image": ["path"],
     "load_mesh": ["path"],
     "load_scene": ["path"],

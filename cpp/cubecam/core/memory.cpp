@@ -1,6 +1,7 @@
 #include "cubecam/core/memory.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <fstream>
 #include <limits>
@@ -8,9 +9,14 @@
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 #include <utility>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace cubecam {
 namespace {
@@ -125,7 +131,44 @@ void lower_to_process(MemoryLeft& left, const fs::path& root) {
     lower_to(RLIMIT_DATA, sizes[5], "RLIMIT_DATA");
 }
 
+std::atomic<std::size_t (*)()> reserves[8];
+
+/// What is left once the reserves are free; they are freed only if less than `bytes` are left.
+MemoryLeft memory_left_for(double bytes) {
+    MemoryLeft left = memory_left();
+    if (bytes <= left.bytes) return left;
+    std::size_t freed = 0;
+    for (const auto& each : reserves) {
+        if (const auto free_reserve = each.load()) freed += free_reserve();
+    }
+    if (freed == 0) return left;
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+    return memory_left();
+}
+
 }  // namespace
+
+void add_reserve(std::size_t (*free_reserve)()) {
+    for (auto& each : reserves) {
+        std::size_t (*none)() = nullptr;
+        if (each.compare_exchange_strong(none, free_reserve)) return;
+    }
+    throw std::logic_error("memory: expected at most eight reserves, got one more");
+}
+
+void advise_large_pages([[maybe_unused]] void* memory,
+                        [[maybe_unused]] std::size_t bytes) noexcept {
+#ifdef MADV_HUGEPAGE
+    const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+    const std::uintptr_t first = reinterpret_cast<std::uintptr_t>(memory);
+    const std::uintptr_t begin = (first + page - 1) / page * page;
+    const std::uintptr_t end = (first + bytes) / page * page;
+    // Where it fails, pages are small.
+    if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+#endif
+}
 
 MemoryLeft memory_left(const fs::path& root) {
     MemoryLeft left{unlimited, "no limit"};
@@ -151,14 +194,14 @@ void refuse_size(double left, const std::string& of, double bytes, const std::st
 
 void check_memory(double bytes, const std::string& what) {
     if (bytes < static_cast<double>(small_allocation)) return;
-    const MemoryLeft left = memory_left();
+    const MemoryLeft left = memory_left_for(bytes);
     if (bytes <= left.bytes) return;
     refuse_size(left.bytes, "memory (" + left.limit + ")", bytes, what);
 }
 
 void check_room(std::size_t bytes) {
     if (bytes < small_allocation) return;
-    const MemoryLeft left = memory_left();
+    const MemoryLeft left = memory_left_for(static_cast<double>(bytes));
     if (static_cast<double>(bytes) <= left.bytes) return;
     throw OutOfMemory("expected work that fits into " + megabytes(left.bytes) + " of memory (" +
                       left.limit + "), got a piece that takes " +

@@ -40,6 +40,17 @@ private:
     std::string text_;
 };
 
+/// Takes a function that frees what is kept only to save time, and returns how many bytes that was.
+/// Both checks call it before they refuse anything. At most eight functions.
+void add_reserve(std::size_t (*free_reserve)());
+
+/// Memory of at least this size has large pages where the system has them: new memory then takes a
+/// fault of the processor for each 2 MiB, not for each 4 KiB.
+constexpr std::size_t large_allocation = std::size_t{4} << 20;
+
+/// Asks the system for large pages within new memory.
+void advise_large_pages(void* memory, std::size_t bytes) noexcept;
+
 constexpr std::size_t small_allocation = std::size_t{32} << 20;
 
 /// The same for a piece of work of which no argument says its size. @throws OutOfMemory

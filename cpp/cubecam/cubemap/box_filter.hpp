@@ -24,7 +24,7 @@ struct BoxWidth {
 /// How many texels a box covers: linear: two (width 1, which is linear interpolation); near: two or
 /// three (width up to 2); far: any number. The loops are compiled for each value, since the
 /// processor would mispredict a branch between them at every other texel.
-enum class Reach { linear, near, far };
+enum class Reach : std::uint8_t { linear, near, far };
 
 inline Reach reach_of(double texels) {
     return texels <= 1 ? Reach::linear : texels <= 2 ? Reach::near : Reach::far;
@@ -76,7 +76,7 @@ inline BoxTap box_tap(double center, const BoxWidth& width) {
 /// Applies a tap to the texels that `texel(0)`, `texel(1)`, ... return, counted from tap.first. It
 /// sums differences, so that equal texels give exactly that texel; long boxes are summed in double.
 template <Reach reach, typename Texels>
-auto apply_tap(const BoxTap& tap, const Texels& texel) {
+[[gnu::always_inline]] inline auto apply_tap(const BoxTap& tap, const Texels& texel) {
     const auto first = texel(0);
     if constexpr (reach == Reach::linear) {
         return first + (texel(1) - first) * tap.near;

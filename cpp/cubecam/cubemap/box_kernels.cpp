@@ -1,32 +1,16 @@
 #include "cubecam/cubemap/box_kernels.hpp"
 
-#include <cstring>
+#include "cubecam/cubemap/clones.hpp"
 
-// One object file holds both versions; the loader takes the one that the processor can run. This
-// needs GCC, x86 and glibc; elsewhere there is only the plain version, with the same results bit
-// for bit. (Sanitizers are not ready yet when the loader chooses.)
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__GLIBC__) &&       \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define CUBECAM_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define CUBECAM_CLONES
-#endif
+#include <algorithm>
+#include <cstring>
 
 namespace cubecam {
 
 namespace {
 
-/// Two texels side by side. Functions take them by reference: without AVX, passing them by value
-/// has no fixed ABI.
-typedef float Float8 __attribute__((vector_size(32)));
-
-[[gnu::always_inline]] inline void join(const Float4& a, const Float4& b, Float8& both) {
-    both = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-
-[[gnu::always_inline]] inline void join(float a, float b, Float8& both) {
-    join(Float4{a, a, a, a}, Float4{b, b, b, b}, both);
-}
+// One texel is one register of four floats. Wider ones, with two or four texels, would have to be
+// put together from as many loads, which takes as long as the arithmetic that they save.
 
 [[gnu::always_inline]] inline Float4 texel_at(const char* address) {
     Float4 texel;  // `address` is aligned for a float only
@@ -34,125 +18,177 @@ typedef float Float8 __attribute__((vector_size(32)));
     return texel;
 }
 
-/// The weights of two taps.
-struct Weights {
-    Float8 near;
-    Float8 last;
+[[gnu::always_inline]] inline Float4 each(float number) {
+    return Float4{number, number, number, number};
+}
 
-    [[gnu::always_inline]] Weights(const BoundTap& a, const BoundTap& b) {
-        join(a.near_weight, b.near_weight, near);
-        join(a.last_weight, b.last_weight, last);
-    }
-};
-
-/// apply_tap's arithmetic on two texels.
+/// apply_tap's arithmetic.
 template <bool near>
-[[gnu::always_inline]] inline void weigh(const Float8& first, const Float8& second,
-                                         const Float8& third, const Weights& weights,
-                                         Float8& result) {
+[[gnu::always_inline]] inline Float4 weigh(const Float4& first, const Float4& second,
+                                           const Float4& third, float near_weight,
+                                           float last_weight) {
     if constexpr (near) {
-        result = first + ((second - first) * weights.near + (third - first) * weights.last);
+        return first + ((second - first) * each(near_weight) + (third - first) * each(last_weight));
     } else {
-        result = first + (second - first) * weights.near;
+        return first + (second - first) * each(near_weight);
     }
 }
 
+/// Filters texels `step` bytes apart; the last one lies `last` bytes from the first.
 template <bool near>
-[[gnu::always_inline]] inline void pair_tap(const char* a, const char* b, std::ptrdiff_t step,
-                                            std::ptrdiff_t last_a, std::ptrdiff_t last_b,
-                                            const Weights& weights, Float8& result) {
-    Float8 first;
-    Float8 second;
-    Float8 third;
-    join(texel_at(a), texel_at(b), first);
-    join(texel_at(a + step), texel_at(b + step), second);
+[[gnu::always_inline]] inline Float4 filter(const char* from, std::ptrdiff_t step,
+                                            std::ptrdiff_t last, float near_weight,
+                                            float last_weight) {
+    const Float4 first = texel_at(from);
+    const Float4 second = texel_at(from + step);
     if constexpr (near) {
-        join(texel_at(a + last_a), texel_at(b + last_b), third);
+        return weigh<true>(first, second, texel_at(from + last), near_weight, last_weight);
     } else {
-        third = second;
+        return weigh<false>(first, second, second, near_weight, last_weight);
     }
-    weigh<near>(first, second, third, weights, result);
 }
 
-/// Calls body(i, j, result) for pairs of texels. If one texel is left at the end, the call has it
-/// as both i and j.
-template <typename Body>
-[[gnu::always_inline]] inline void for_pairs(std::size_t count, Float4* to, const Body& body) {
-    Float8 result;
-    std::size_t i = 0;
-    for (; i + 1 < count; i += 2) {
-        body(i, i + 1, result);
-        std::memcpy(static_cast<void*>(to + i), &result, sizeof result);
-    }
-    if (i < count) {
-        body(i, i, result);
-        std::memcpy(static_cast<void*>(to + i), &result, sizeof(Float4));
+/// One texel by a tap of any width.
+[[gnu::always_inline]] inline Float4 filter_far(const BoxTap& tap, const char* from,
+                                                std::ptrdiff_t step) {
+    return apply_tap<Reach::far>(
+        tap, [=](int i) __attribute__((always_inline)) { return texel_at(from + i * step); });
+}
+
+template <bool near>
+[[gnu::always_inline]] inline void row_near(const char* row, const RowTaps& taps, Float4* to) {
+    const std::ptrdiff_t texel = taps.texel;
+    for (std::size_t i = 0; i < taps.count; ++i) {
+        to[i] = filter<near>(row + taps.first_at[i], texel, taps.last_at[i], taps.near[i],
+                             taps.last[i]);
     }
 }
 
 template <bool near>
-[[gnu::always_inline]] inline void filter(const void* base, std::ptrdiff_t step,
-                                          const BoundTap* taps, std::size_t count, Float4* to) {
-    const char* from = static_cast<const char*>(base);
-    for_pairs(count, to,
-              [=](std::size_t i, std::size_t j, Float8& result) __attribute__((always_inline)) {
-                  const BoundTap& a = taps[i];
-                  const BoundTap& b = taps[j];
-                  pair_tap<near>(from + a.first, from + b.first, step, a.last, b.last,
-                                 Weights(a, b), result);
-              });
-}
-
-template <bool near>
-[[gnu::always_inline]] inline void filter_boxes(const Float4* base, std::ptrdiff_t stride,
-                                                const BoundTap* down, const BoundTap* across,
+[[gnu::always_inline]] inline void columns_near(const char* rows, const BoxTap* taps,
                                                 std::size_t count, Float4* to) {
-    const char* from = reinterpret_cast<const char*>(base);
-    constexpr std::ptrdiff_t next = sizeof(Float4);
-    for_pairs(count, to,
-              [=](std::size_t i, std::size_t j, Float8& result) __attribute__((always_inline)) {
-                  const char* a = from + down[i].first + across[i].first;
-                  const char* b = from + down[j].first + across[j].first;
-                  const std::ptrdiff_t last_a = across[i].last;
-                  const std::ptrdiff_t last_b = across[j].last;
-                  const Weights weights(across[i], across[j]);
-                  Float8 first;
-                  Float8 second;
-                  Float8 third;
-                  pair_tap<near>(a, b, next, last_a, last_b, weights, first);
-                  pair_tap<near>(a + stride, b + stride, next, last_a, last_b, weights, second);
-                  if constexpr (near) {
-                      pair_tap<near>(a + down[i].last, b + down[j].last, next, last_a, last_b,
-                                     weights, third);
-                  } else {
-                      third = second;
-                  }
-                  weigh<near>(first, second, third, Weights(down[i], down[j]), result);
-              });
+    constexpr std::ptrdiff_t texel = sizeof(Float4);
+    constexpr std::ptrdiff_t stride = tile_size * texel;
+    for (std::size_t i = 0; i < count; ++i, rows += texel) {
+        const BoxTap& tap = taps[i];
+        to[i] = filter<near>(rows + tap.first * stride, stride, tap.inner * stride + stride,
+                             tap.near, tap.last);
+    }
+}
+
+template <bool near>
+[[gnu::always_inline]] inline void boxes_near(const TexelGrid& texels, const BoxTap* down,
+                                              const BoxTap* across, std::size_t count, Float4* to) {
+    const char* base = reinterpret_cast<const char*>(texels.base);
+    const std::ptrdiff_t row = texels.row;
+    const std::ptrdiff_t texel = texels.texel;
+    for (std::size_t i = 0; i < count; ++i) {
+        const BoxTap& right = across[i];
+        const BoxTap& below = down[i];
+        const char* first = base + below.first * row + right.first * texel;
+        const std::ptrdiff_t last = right.inner * texel + texel;
+        const auto line = [&](const char* from) __attribute__((always_inline)) {
+            return filter<near>(from, texel, last, right.near, right.last);
+        };
+        const Float4 upper = line(first);
+        const Float4 middle = line(first + row);
+        Float4 lower = middle;
+        if constexpr (near) lower = line(first + below.inner * row + row);
+        to[i] = weigh<near>(upper, middle, lower, below.near, below.last);
+    }
+}
+
+[[gnu::always_inline]] inline Float4 bilinear(const TexelGrid& texels, const BilinearTaps& taps,
+                                              std::size_t i) {
+    const char* at = reinterpret_cast<const char*>(texels.base) + taps.at[i];
+    const Float4 upper = mix_texels(texel_at(at), texel_at(at + texels.texel), taps.right[i]);
+    at += texels.row;
+    const Float4 lower = mix_texels(texel_at(at), texel_at(at + texels.texel), taps.right[i]);
+    return mix_texels(upper, lower, taps.bottom[i]);
 }
 
 }  // namespace
 
-CUBECAM_CLONES void filter_linear(const void* base, std::ptrdiff_t step, const BoundTap* taps,
-                                  std::size_t count, Float4* to) {
-    filter<false>(base, step, taps, count, to);
+void RowTaps::set(const TapList& list, std::ptrdiff_t texel_bytes) {
+    taps = &list;
+    texel = texel_bytes;
+    count = list.size();
+    const auto step = static_cast<std::int32_t>(texel_bytes);
+    for (std::size_t i = 0; i < count; ++i) {
+        const BoxTap& tap = *list.data(i);
+        first_at[i] = tap.first * step;
+        last_at[i] = (tap.inner + 1) * step;
+        near[i] = tap.near;
+        last[i] = tap.last;
+    }
 }
 
-CUBECAM_CLONES void filter_near(const void* base, std::ptrdiff_t step, const BoundTap* taps,
-                                std::size_t count, Float4* to) {
-    filter<true>(base, step, taps, count, to);
+CUBECAM_CLONES void filter_row(const float* row, const RowTaps& taps, Float4* to) {
+    const char* from = reinterpret_cast<const char*>(row);
+    const Reach reach = taps.taps->reach();
+    if (reach == Reach::linear) return row_near<false>(from, taps, to);
+    if (reach == Reach::near) return row_near<true>(from, taps, to);
+    for (std::size_t i = 0; i < taps.count; ++i) {
+        to[i] = filter_far(*taps.taps->data(i), from + taps.first_at[i], taps.texel);
+    }
 }
 
-CUBECAM_CLONES void filter_boxes_linear(const Float4* base, std::ptrdiff_t stride,
-                                        const BoundTap* down, const BoundTap* across,
-                                        std::size_t count, Float4* to) {
-    filter_boxes<false>(base, stride, down, across, count, to);
+CUBECAM_CLONES void filter_columns(Reach reach, const Float4* rows, const BoxTap* taps,
+                                   std::size_t count, Float4* to) {
+    const char* from = reinterpret_cast<const char*>(rows);
+    if (reach == Reach::linear) return columns_near<false>(from, taps, count, to);
+    if (reach == Reach::near) return columns_near<true>(from, taps, count, to);
+    constexpr std::ptrdiff_t stride = tile_size * sizeof(Float4);
+    for (std::size_t i = 0; i < count; ++i, from += sizeof(Float4)) {
+        to[i] = filter_far(taps[i], from + taps[i].first * stride, stride);
+    }
 }
 
-CUBECAM_CLONES void filter_boxes_near(const Float4* base, std::ptrdiff_t stride,
-                                      const BoundTap* down, const BoundTap* across,
-                                      std::size_t count, Float4* to) {
-    filter_boxes<true>(base, stride, down, across, count, to);
+CUBECAM_CLONES void filter_boxes(Reach reach, const TexelGrid& texels, const BoxTap* down,
+                                 const BoxTap* across, std::size_t count, Float4* to) {
+    if (reach == Reach::linear) return boxes_near<false>(texels, down, across, count, to);
+    if (reach == Reach::near) return boxes_near<true>(texels, down, across, count, to);
+    const char* base = reinterpret_cast<const char*>(texels.base);
+    for (std::size_t i = 0; i < count; ++i) {
+        const char* from = base + down[i].first * texels.row + across[i].first * texels.texel;
+        const BoxTap& tap = across[i];
+        to[i] = apply_tap<Reach::far>(down[i], [&](int k) __attribute__((always_inline)) {
+            return filter_far(tap, from + k * texels.row, texels.texel);
+        });
+    }
+}
+
+CUBECAM_CLONES void place_bilinear(const float* x, const float* z, float cosine, float sine,
+                                   const PolePlane& plane, BilinearTaps& taps) {
+    const PolePlane at = plane;
+    for (int i = 0; i < tile_size; ++i) {
+        const float turned_x = x[i] * cosine - z[i] * sine;
+        const float turned_z = z[i] * cosine + x[i] * sine;
+        const float column = turned_x * at.scale + at.middle;
+        const float row = at.turn * turned_z * at.scale + at.middle;
+        // Both are at least -1/2: after adding 1, rounding towards 0 is rounding down.
+        const int left = static_cast<int>(column + 1.0f) - 1;
+        const int upper = static_cast<int>(row + 1.0f) - 1;
+        taps.right[i] = column - static_cast<float>(left);
+        taps.bottom[i] = row - static_cast<float>(upper);
+        const int beyond =
+            (turned_x > 1.0f) | (turned_x < -1.0f) | (turned_z > 1.0f) | (turned_z < -1.0f);
+        taps.outside[i] |= beyond;
+        // What lies beyond the square is looked up by the caller, and here anywhere in the grid.
+        const int in_column = std::min(std::max(left - at.column0, 0), at.columns - 2);
+        const int in_row = std::min(std::max(upper - at.row0, 0), at.rows - 2);
+        taps.at[i] = in_row * at.row + in_column * at.texel;
+    }
+}
+
+CUBECAM_CLONES void look_bilinear(const TexelGrid& texels, const BilinearTaps& taps,
+                                  std::size_t count, Float4* first) {
+    for (std::size_t i = 0; i < count; ++i) first[i] = bilinear(texels, taps, i);
+}
+
+CUBECAM_CLONES void add_bilinear(const TexelGrid& texels, const BilinearTaps& taps,
+                                 std::size_t count, const Float4* first, Float4* sum) {
+    for (std::size_t i = 0; i < count; ++i) sum[i] += bilinear(texels, taps, i) - first[i];
 }
 
 }  // namespace cubecam

@@ -1,35 +1,82 @@
-/// The inner loops of resampling for texels of three and four channels: two texels at a time if the
-/// processor has AVX2, which is checked at run time. Only the .cpp files of cubemap/ include this
-/// header.
+/// The inner loops of resampling (clones.hpp). Only the .cpp files of
+/// cubemap/ include this header.
+///
+/// A texel is four floats wherever it is read: of a picture of fewer channels, the lanes behind
+/// them hold the numbers that follow in memory, and nobody reads what is computed of them. So three
+/// floats behind the last texel must be readable.
 #pragma once
 
-#include "cubecam/cubemap/box_filter.hpp"
+#include "cubecam/cubemap/tap_list.hpp"
 
 #include <cstddef>
 #include <cstdint>
 
 namespace cubecam {
 
-/// A tap with the places of its texels in memory: the bytes from the base to its first texel, and
-/// from there to its last. The weights are those of BoxTap.
-struct BoundTap {
-    std::int32_t first;
-    std::int32_t last;
-    float near_weight;
-    float last_weight;
+/// The taps of a row of a tile, which many rows share, with their places in memory.
+struct alignas(64) RowTaps {
+    float near[tile_size];
+    float last[tile_size];
+    std::int32_t first_at[tile_size];  ///< bytes from the beginning of the row
+    std::int32_t last_at[tile_size];   ///< bytes from the first texel of the tap to its last
+    const TapList* taps;
+    std::ptrdiff_t texel;  ///< bytes from a texel to the next one
+    std::size_t count;
+
+    /// Takes at most tile_size taps of a closed list, for texels of `texel_bytes` bytes.
+    void set(const TapList& list, std::ptrdiff_t texel_bytes);
 };
 
-/// to[i] = the box taps[i] over texels from `base`, the second one `step` bytes after the first,
-/// for taps of two texels (linear) or at most three (near).
-void filter_linear(const void* base, std::ptrdiff_t step, const BoundTap* taps, std::size_t count,
-                   Float4* to);
-void filter_near(const void* base, std::ptrdiff_t step, const BoundTap* taps, std::size_t count,
-                 Float4* to);
+/// to[i] = the box taps[i] over texels of the row at `row`, for all taps.
+void filter_row(const float* row, const RowTaps& taps, Float4* to);
 
-/// Boxes in both directions over a rectangle with rows of `stride` bytes: down[i] by across[i].
-void filter_boxes_linear(const Float4* base, std::ptrdiff_t stride, const BoundTap* down,
-                         const BoundTap* across, std::size_t count, Float4* to);
-void filter_boxes_near(const Float4* base, std::ptrdiff_t stride, const BoundTap* down,
-                       const BoundTap* across, std::size_t count, Float4* to);
+/// to[i] = the box taps[i] over rows of tile_size texels, in column i.
+void filter_columns(Reach reach, const Float4* rows, const BoxTap* taps, std::size_t count,
+                    Float4* to);
+
+/// Texels in memory: `texel` bytes from one to the next, `row` bytes from one row to the next.
+struct TexelGrid {
+    const float* base;
+    std::ptrdiff_t row;
+    std::ptrdiff_t texel;
+};
+
+/// to[i] = the box across[i] by down[i].
+void filter_boxes(Reach reach, const TexelGrid& texels, const BoxTap* down, const BoxTap* across,
+                  std::size_t count, Float4* to);
+
+/// Places of bilinear lookups.
+struct alignas(64) BilinearTaps {
+    float right[tile_size];
+    float bottom[tile_size];
+    std::int32_t at[tile_size];       ///< bytes from the base to the texel at the upper left
+    std::int32_t outside[tile_size];  ///< not 0: beyond the square; no call sets it back to 0
+};
+
+/// Where lookups round a pole find their texels: a direction (x, z), with y = +-1, lies at column
+/// x scale + middle and row turn z scale + middle of the face. The grid begins at column0 and row0.
+struct PolePlane {
+    float scale;
+    float middle;
+    float turn;  ///< 1 on +Y, -1 on -Y
+    int column0;
+    int row0;
+    int columns;  ///< of the grid, at least 2
+    int rows;
+    std::int32_t row;  ///< bytes, as in TexelGrid
+    std::int32_t texel;
+};
+
+/// Finds the places of tile_size horizontal directions, each turned about the pole: cosine and sine
+/// of the angle, both times the distance from the pole.
+void place_bilinear(const float* x, const float* z, float cosine, float sine,
+                    const PolePlane& plane, BilinearTaps& taps);
+
+/// first[i] = the lookup taps[i].
+void look_bilinear(const TexelGrid& texels, const BilinearTaps& taps, std::size_t count,
+                   Float4* first);
+/// sum[i] += the lookup taps[i] - first[i].
+void add_bilinear(const TexelGrid& texels, const BilinearTaps& taps, std::size_t count,
+                  const Float4* first, Float4* sum);
 
 }  // namespace cubecam

@@ -115,41 +115,31 @@ LaneType mix_texels(LaneType a, LaneType b, float weight) {
     return a + (b - a) * weight;
 }
 
-/// One level of a cube, read seamlessly (GL 4.6 section 8.14.2, "Seamless cube map filtering").
-template <typename Pixel, int Channels>
-struct CubeTexels {
-    const Pixel* pixels;  ///< [6][size][size][Channels]
-    int size;
+/// Lookups in one level of a cube, read seamlessly (GL 4.6 section 8.14.2, "Seamless cube map
+/// filtering"). `Cube` has a `size`, and inside(face, row, column) for texels of its faces.
+template <typename Cube, int Channels>
+struct SeamlessLookups {
+    const Cube& cube() const { return static_cast<const Cube&>(*this); }
 
-    const Pixel* at(Face face, int row, int column) const {
-        const auto n = static_cast<std::size_t>(size);
-        return pixels + ((face_index(face) * n + static_cast<std::size_t>(row)) * n +
-                         static_cast<std::size_t>(column)) *
-                            Channels;
-    }
-
-    Lane<Channels> inside(Face face, int row, int column) const {
-        return load_texel<Channels>(at(face, row, column));
-    }
-
-    bool contains(int index) const { return index >= 0 && index < size; }
+    bool contains(int index) const { return index >= 0 && index < cube().size; }
 
     /// Returns the texel of any row and column. Beyond an edge it is a texel of the neighbour face,
     /// as if the cube were unfolded; if both row and column are outside, it is the average of the
     /// three texels that meet in that corner.
     Lane<Channels> seamless(Face face, int row, int column) const {
+        const int size = cube().size;
         const bool row_in = contains(row);
         const bool column_in = contains(column);
-        if (row_in && column_in) return inside(face, row, column);
+        if (row_in && column_in) return cube().inside(face, row, column);
         if (row_in || column_in) {
             const TexelPlace place = texel_beyond_edge(face, row, column, size);
-            return inside(place.face, place.row, place.column);
+            return cube().inside(place.face, place.row, place.column);
         }
         const int near_row = row < 0 ? 0 : size - 1;
         const int near_column = column < 0 ? 0 : size - 1;
         const int next_row = row < 0 ? -1 : size;
         const int next_column = column < 0 ? -1 : size;
-        const Lane<Channels> own = inside(face, near_row, near_column);
+        const Lane<Channels> own = cube().inside(face, near_row, near_column);
         const Lane<Channels> above = seamless(face, next_row, near_column);
         const Lane<Channels> beside = seamless(face, near_row, next_column);
         // A sum of differences: three equal texels give exactly the same fourth one.
@@ -158,38 +148,26 @@ struct CubeTexels {
         return finite_or<Channels>(average, own / 3.0f + above / 3.0f + beside / 3.0f);
     }
 
-    Lane<Channels> bilinear(Face face, float s, float t) const {
-        return between(face, s * static_cast<float>(size) - 0.5f,
-                       t * static_cast<float>(size) - 0.5f);
-    }
-
     /// The bilinear lookup at column x and row y, from -1/2 to N - 1/2; texel centres lie at whole
     /// numbers.
     Lane<Channels> between(Face face, float x, float y) const {
         // x and y are at least -1/2: after adding 1, rounding towards 0 is rounding down.
         const int column = static_cast<int>(x + 1.0f) - 1;
         const int row = static_cast<int>(y + 1.0f) - 1;
-        const float right_weight = x - static_cast<float>(column);
-        const float bottom_weight = y - static_cast<float>(row);
-        // The last column is excluded: there may be no memory behind its last texel.
-        if (column >= 0 && row >= 0 && column + 2 < size && row + 1 < size) {
-            const auto load = [](const Pixel* from) {
-                return load_texel_before_another<Channels>(from);
-            };
-            const Pixel* upper = at(face, row, column);
-            const Pixel* lower = upper + static_cast<std::size_t>(size) * Channels;
-            return mix_texels(mix_texels(load(upper), load(upper + Channels), right_weight),
-                              mix_texels(load(lower), load(lower + Channels), right_weight),
-                              bottom_weight);
-        }
-        return between_faces(face, row, column, right_weight, bottom_weight);
+        return between_faces(face, row, column, x - static_cast<float>(column),
+                             y - static_cast<float>(row));
+    }
+
+    Lane<Channels> bilinear(Face face, float s, float t) const {
+        const auto size = static_cast<float>(cube().size);
+        return cube().between(face, s * size - 0.5f, t * size - 0.5f);
     }
 
     /// Like `between`, but a sum of weighted texels, for places where `between` gives NaN or
     /// infinity. A texel of weight 0 does not count, nor one whose weight may come from rounding
     /// errors of x or y alone.
     Lane<Channels> sum_between(Face face, float x, float y) const {
-        const float error = std::max(1e-6f, static_cast<float>(size) * 2.4e-7f);
+        const float error = std::max(1e-6f, static_cast<float>(cube().size) * 2.4e-7f);
         const auto rounded = [error](float weight) {
             return weight < error ? 0.0f : weight > 1.0f - error ? 1.0f : weight;
         };
@@ -210,8 +188,8 @@ struct CubeTexels {
 
     /// Like `bilinear`; see sum_between.
     Lane<Channels> sum_bilinear(Face face, float s, float t) const {
-        return sum_between(face, s * static_cast<float>(size) - 0.5f,
-                           t * static_cast<float>(size) - 0.5f);
+        return sum_between(face, s * static_cast<float>(cube().size) - 0.5f,
+                           t * static_cast<float>(cube().size) - 0.5f);
     }
 
     [[gnu::noinline]] Lane<Channels> between_faces(Face face, int row, int column,
@@ -221,6 +199,76 @@ struct CubeTexels {
             mix_texels(seamless(face, row + 1, column), seamless(face, row + 1, column + 1),
                        right_weight),
             bottom_weight);
+    }
+};
+
+/// A level whose type and number of channels are known to the compiler.
+template <typename Pixel, int Channels>
+struct CubeTexels : SeamlessLookups<CubeTexels<Pixel, Channels>, Channels> {
+    const Pixel* pixels;  ///< [6][size][size][Channels]
+    int size;
+
+    CubeTexels(const Pixel* first, int n) : pixels(first), size(n) {}
+
+    const Pixel* at(Face face, int row, int column) const {
+        const auto n = static_cast<std::size_t>(size);
+        return pixels + ((face_index(face) * n + static_cast<std::size_t>(row)) * n +
+                         static_cast<std::size_t>(column)) *
+                            Channels;
+    }
+
+    Lane<Channels> inside(Face face, int row, int column) const {
+        return load_texel<Channels>(at(face, row, column));
+    }
+
+    /// As SeamlessLookups::between, faster where the face holds all four texels.
+    Lane<Channels> between(Face face, float x, float y) const {
+        // x and y are at least -1/2: after adding 1, rounding towards 0 is rounding down.
+        const int column = static_cast<int>(x + 1.0f) - 1;
+        const int row = static_cast<int>(y + 1.0f) - 1;
+        const float right_weight = x - static_cast<float>(column);
+        const float bottom_weight = y - static_cast<float>(row);
+        // The last column is excluded: there may be no memory behind its last texel.
+        if (column >= 0 && row >= 0 && column + 2 < size && row + 1 < size) {
+            const auto load = [](const Pixel* from) {
+                return load_texel_before_another<Channels>(from);
+            };
+            const Pixel* upper = at(face, row, column);
+            const Pixel* lower = upper + static_cast<std::size_t>(size) * Channels;
+            return mix_texels(mix_texels(load(upper), load(upper + Channels), right_weight),
+                              mix_texels(load(lower), load(lower + Channels), right_weight),
+                              bottom_weight);
+        }
+        return this->between_faces(face, row, column, right_weight, bottom_weight);
+    }
+};
+
+/// A level of any type and number of channels, which the slow paths read. Lanes beyond the channels
+/// are 0.
+struct CubePixels : SeamlessLookups<CubePixels, 4> {
+    const std::byte* pixels;  ///< [6][size][size][channels]
+    int size;
+    int channels;
+    DType dtype;
+
+    CubePixels(const std::byte* first, int n, int channel_count, DType type)
+        : pixels(first), size(n), channels(channel_count), dtype(type) {}
+
+    std::size_t texel_bytes() const {
+        return static_cast<std::size_t>(channels) * dtype_size(dtype);
+    }
+
+    const std::byte* at(Face face, int row, int column) const {
+        const auto n = static_cast<std::size_t>(size);
+        return pixels + ((face_index(face) * n + static_cast<std::size_t>(row)) * n +
+                         static_cast<std::size_t>(column)) *
+                            texel_bytes();
+    }
+
+    Float4 inside(Face face, int row, int column) const {
+        float lanes[4] = {0, 0, 0, 0};
+        pixels_to_floats(dtype, at(face, row, column), static_cast<std::size_t>(channels), lanes);
+        return Float4{lanes[0], lanes[1], lanes[2], lanes[3]};
     }
 };
 

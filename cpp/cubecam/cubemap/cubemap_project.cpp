@@ -634,7 +634,7 @@ PixelBuffer picture_to_cube(const ProjectedPixels& from, const Projection& proje
         if (fill(look_up_in(pixels, from.channels))) return;
         const std::size_t values =
             static_cast<std::size_t>(from.width) * static_cast<std::size_t>(from.height) * channels;
-        const auto finite = without_infinities(pixels, values, from.width, from.channels);
+        const auto finite = without_infinities(from.dtype, from.pixels, values, 0);
         fill(look_up_in(finite.data(), from.channels));
     });
     return result;

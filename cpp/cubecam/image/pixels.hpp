@@ -39,7 +39,9 @@ struct UninitializedAllocator : std::allocator<T> {
     UninitializedAllocator(const UninitializedAllocator<U>&) noexcept {}
     T* allocate(std::size_t count) {
         if (count <= static_cast<std::size_t>(-1) / sizeof(T)) check_room(count * sizeof(T));
-        return std::allocator<T>::allocate(count);
+        T* memory = std::allocator<T>::allocate(count);
+        if (count >= large_allocation / sizeof(T)) advise_large_pages(memory, count * sizeof(T));
+        return memory;
     }
     template <typename U>
     void construct(U* at) noexcept {

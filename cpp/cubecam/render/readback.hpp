@@ -2,9 +2,9 @@
 
 #include "cubecam/cubemap/cubemap.hpp"
 #include "cubecam/gl/context.hpp"
+#include "cubecam/image/result_pool.hpp"
 #include "cubecam/render/frame.hpp"
 #include "cubecam/render/resources/read_ring.hpp"
-#include "cubecam/render/resources/result_pool.hpp"
 #include "cubecam/render/resources/target.hpp"
 
 #include <cstddef>

@@ -2,6 +2,7 @@
 
 #include "cubecam/geometry/mesh_data.hpp"
 #include "cubecam/gl/context.hpp"
+#include "cubecam/image/result_pool.hpp"
 #include "cubecam/math/plane.hpp"
 #include "cubecam/render/passes/body_pass.hpp"
 #include "cubecam/render/passes/bounce_change_pass.hpp"
@@ -15,7 +16,6 @@
 #include "cubecam/render/resources/gpu_cache.hpp"
 #include "cubecam/render/resources/key.hpp"
 #include "cubecam/render/resources/read_ring.hpp"
-#include "cubecam/render/resources/result_pool.hpp"
 #include "cubecam/render/resources/target_store.hpp"
 #include "cubecam/render/resources/weak_cache.hpp"
 #include "cubecam/scene/probe.hpp"

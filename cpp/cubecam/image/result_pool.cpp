@@ -1,4 +1,4 @@
-#include "cubecam/render/resources/result_pool.hpp"
+#include "cubecam/image/result_pool.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -16,11 +16,16 @@ std::shared_ptr<PixelBuffer> ResultPool::take(std::size_t bytes) {
     if (bytes < least_bytes) return std::make_shared<PixelBuffer>(bytes);
     std::unique_ptr<PixelBuffer> memory;
     {
-        const std::lock_guard lock(mutex_);
-        const auto found = std::find_if(held_.begin(), held_.end(), [bytes](const Held& held) {
-            return held.memory->size() == bytes;
-        });
-        if (found != held_.end()) {
+        // Here and below the lock is only tried: in a forked process the thread that holds it may
+        // not exist.
+        const std::unique_lock lock(mutex_, std::try_to_lock);
+        auto found = held_.end();
+        if (lock) {
+            found = std::find_if(held_.begin(), held_.end(), [bytes](const Held& held) {
+                return held.memory->size() == bytes;
+            });
+        }
+        if (lock && found != held_.end()) {
             memory = std::move(found->memory);
             held_.erase(found);
             bytes_ -= bytes;
@@ -35,7 +40,6 @@ std::shared_ptr<PixelBuffer> ResultPool::take(std::size_t bytes) {
 
 void ResultPool::give_back(std::unique_ptr<PixelBuffer> memory) noexcept {
     std::list<Held> freed;  // freed after the lock
-    // The lock is only tried: in a forked process the thread that holds it may not exist.
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock || memory->size() > capacity_) return;
     try {
@@ -53,12 +57,33 @@ void ResultPool::give_back(std::unique_ptr<PixelBuffer> memory) noexcept {
 
 void ResultPool::next_call() {
     std::list<Held> freed;
-    const std::lock_guard lock(mutex_);
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock) return;
     ++call_;
     while (!held_.empty() && held_.back().call + patience < call_) {
         bytes_ -= held_.back().memory->size();
         freed.splice(freed.end(), held_, std::prev(held_.end()));
     }
+}
+
+std::size_t ResultPool::clear() {
+    std::list<Held> freed;
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock) return 0;
+    held_.swap(freed);
+    return std::exchange(bytes_, 0);
+}
+
+std::shared_ptr<PixelBuffer> result_memory(std::size_t bytes) {
+    // Never destroyed: results may live until the process ends.
+    static const auto& pool = *new auto(std::make_shared<ResultPool>(conversion_results));
+    static const bool reserve = [] {
+        add_reserve([] { return pool->clear(); });
+        return true;
+    }();
+    static_cast<void>(reserve);
+    pool->next_call();
+    return pool->take(bytes);
 }
 
 }  // namespace cubecam

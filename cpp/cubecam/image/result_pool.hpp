@@ -25,8 +25,11 @@ public:
     /// Returns memory with undefined contents.
     std::shared_ptr<PixelBuffer> take(std::size_t bytes);
 
-    /// Each call of the renderer calls this once, one thread at a time.
+    /// Each call of a renderer, and each conversion, calls this once.
     void next_call();
+
+    /// Frees what the pool holds, and returns how many bytes that was.
+    std::size_t clear();
 
 private:
     struct Held {
@@ -42,5 +45,10 @@ private:
     std::size_t bytes_ = 0;
     std::uint64_t call_ = 0;
 };
+
+/// Memory for the result of a conversion, from a pool of this process of at most
+/// conversion_results bytes. It is a reserve of the checks of memory (core/memory.hpp).
+std::shared_ptr<PixelBuffer> result_memory(std::size_t bytes);
+inline constexpr std::size_t conversion_results = std::size_t{64} << 20;
 
 }  // namespace cubecam
