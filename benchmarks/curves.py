@@ -1,0 +1,417 @@
+"""What a cubemap costs, as a function of what is in the scene and of what is asked for.
+
+    python -m benchmarks.curves                                    all curves, in three minutes
+    python -m benchmarks.curves --only lights --only samples
+    python -m benchmarks.curves --history out/curves --page docs/explanation/cost_curves.md
+
+Each curve changes one number of a field (`benchmarks/field.py`): teapots on a ground, captured from a place that is
+another one for each frame, so that all faces are drawn. At each point cubecam and a program in moderngl that culls by
+hand draw the same frames, their arrays are compared first, and then they take turns. A third time is that of copying
+the result's bytes, which nothing can be below. Times are medians, CPU time of all threads and time by the clock.
+
+`--history` gets a file for each run: commit, machine, driver and all points. `--page` writes the table and the lines
+into a document, between its marks, and the figure beside it. `--callgrind` counts instructions with valgrind.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import datetime
+import json
+import os
+import shutil
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterable
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from . import batches, machine
+from .processes import ROOT, CpuWorker, WorkerError
+
+#: What stands in a document before and after the tables.
+BEGIN, END = "<!-- benchmarks.curves -->", "<!-- end -->"
+PICTURE = ROOT / "docs" / "images" / "cost-curves.svg"
+OUTPUTS = ("distance", "normal", "position", "z")
+BASE: dict[str, Any] = {"probes": 1, "size": 128, "outputs": []}
+
+
+@dataclasses.dataclass(frozen=True)
+class Curve:
+    """One number that changes, and what a field has for a value of it."""
+
+    name: str
+    unit: str  # what one more is
+    fixed: str  # what does not change
+    values: tuple[int, ...]
+    options: Callable[[int], dict[str, Any]]
+    program: str = batches.SINGLE
+
+
+CURVES = (
+    Curve(
+        "triangles",
+        "1,000 triangles",
+        "20 knots, 128 pixels",
+        (2_000, 8_000, 32_000, 128_000, 512_000),
+        lambda n: {"triangles": n},
+    ),
+    Curve(
+        "nodes",
+        "node",
+        "5 materials, 100 triangles a node",
+        (1, 10, 100, 1_000),
+        lambda n: {"nodes": n, "triangles": 100 * n, "colors": min(n, 5)},
+    ),
+    Curve(
+        "materials",
+        "material",
+        "200 nodes of 100 triangles",
+        (1, 4, 20, 100, 200),
+        lambda n: {"nodes": 200, "triangles": 20_000, "colors": n},
+    ),
+    Curve("lights", "light", "20 teapots", (1, 2, 4, 8, 16), lambda n: {"lights": n}),
+    Curve(
+        "probes",
+        "cubemap",
+        "20 teapots, one capture_many",
+        (1, 4, 16, 64),
+        lambda n: {"probes": n},
+        batches.BATCH,
+    ),
+    Curve(
+        "face size",
+        "1,000 pixels of a face",
+        "20 teapots",
+        (16, 64, 128, 256, 512),
+        lambda n: {"size": n},
+    ),
+    Curve(
+        "outputs",
+        "output",
+        "20 teapots; " + ", ".join(OUTPUTS),
+        (0, 1, 2, 3, 4),
+        lambda n: {"outputs": list(OUTPUTS[:n])},
+    ),
+    Curve("samples", "sample", "20 teapots", (1, 2, 4, 8), lambda n: {"samples": n}),
+)
+
+
+@dataclasses.dataclass
+class Point:
+    """The times of one value of a curve, milliseconds; without moderngl's if it cannot draw the same."""
+
+    curve: str
+    value: int
+    cubecam_cpu: float
+    cubecam_wall: float
+    moderngl_cpu: float | None
+    moderngl_wall: float | None
+    ratio_cpu: float | None  # cubecam over moderngl, the median of the rounds' ratios
+    ratio_wall: float | None
+    copy: float  # of the result's bytes, by np.copyto into memory that is kept
+    bytes: int
+    note: str = ""
+
+
+def scale(curve: str, value: float) -> float:
+    """A value in the curve's unit."""
+    if curve == "triangles":
+        return value / 1000
+    return value * value / 1000 if curve == "face size" else value
+
+
+def copy_ms(arrays: batches.Arrays) -> float:
+    """Milliseconds of copying arrays into memory that is kept."""
+    kept = [np.zeros_like(array) for array in arrays.values()]
+    times = []
+    for _ in range(7):
+        start = time.perf_counter()
+        for into, array in zip(kept, arrays.values(), strict=True):
+            np.copyto(into, array)
+        times.append((time.perf_counter() - start) * 1e3)
+    return statistics.median(times)
+
+
+def measure(curve: Curve, value: int, rounds: int, base: dict[str, Any] = BASE) -> Point | str:
+    """Measure one point; a text if it cannot be measured or if the programs draw different pictures."""
+    options = {**base, **curve.options(value)}
+    with ExitStack() as stack:
+        programs = []
+        note = ""
+        for name in (curve.program, batches.MODERNGL):
+            try:
+                program = CpuWorker(name, **options)
+                stack.callback(program.close)
+                arrays = batches.arrays_of(program, 1)
+            except WorkerError as error:
+                if not programs:
+                    return f"{curve.name} {value}: {error}"
+                note = f"moderngl: {error}"
+                continue
+            if programs:
+                if wrong := batches.difference(own, arrays):  # noqa: F821 - set by the first program
+                    return f"{curve.name} {value}: other pictures: {wrong}"
+            else:
+                own = arrays
+            programs.append(program)
+        found = batches.turns(programs, rounds)
+    middle = [{name: statistics.median(times[name]) for name in times} for times in found]
+    both = len(found) == 2
+    return Point(
+        curve.name,
+        value,
+        middle[0]["cpu"],
+        middle[0]["wall"],
+        middle[1]["cpu"] if both else None,
+        middle[1]["wall"] if both else None,
+        batches.ratio(found[0]["cpu"], found[1]["cpu"]) if both else None,
+        batches.ratio(found[0]["wall"], found[1]["wall"]) if both else None,
+        copy_ms(own),
+        sum(array.nbytes for array in own.values()),
+        note,
+    )
+
+
+def line(xs: Iterable[float], ys: Iterable[float]) -> tuple[float, float]:
+    """The line a + b x of the least squares of relative errors: (a, b)."""
+    x, y = np.array(list(xs), float), np.array(list(ys), float)
+    b, a = np.polyfit(x, y, 1, w=1 / y)
+    return float(a), float(b)
+
+
+def _points_of(points: list[Point], curve: Curve) -> list[Point]:
+    return [point for point in points if point.curve == curve.name]
+
+
+def _text(value: float | None) -> str:
+    return "" if value is None else f"{value:.3g}" if value < 100 else f"{value:.0f}"
+
+
+def lines_markdown(points: list[Point]) -> str:
+    """A table of the lines through the curves' points."""
+    rows = [
+        "| curve | what stays | cubecam, ms of CPU time | moderngl, culled by hand |",
+        "|---|---|---|---|",
+    ]
+    for curve in CURVES:
+        found = _points_of(points, curve)
+        if len(found) < 2:
+            continue
+        xs = [scale(curve.name, point.value) for point in found]
+        a, b = line(xs, [point.cubecam_cpu for point in found])
+        own, other = f"{_signed(a)} + {b:.3g} a {curve.unit}", ""
+        times = [point.moderngl_cpu for point in found if point.moderngl_cpu is not None]
+        if len(times) == len(found):
+            a, b = line(xs, times)
+            other = f"{_signed(a)} + {b:.3g}"
+        rows.append(f"| {curve.name} | {curve.fixed} | {own} | {other} |")
+    return "\n".join(rows)
+
+
+def _signed(value: float) -> str:
+    return f"{value:.2g}" if value < 10 else f"{value:.0f}"
+
+
+def points_markdown(points: list[Point]) -> str:
+    """A table of all points."""
+    rows = [
+        "| curve | value | cubecam CPU | by the clock | moderngl CPU | by the clock | CPU over moderngl | copying the result |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
+    for p in points:
+        numbers = (p.cubecam_cpu, p.cubecam_wall, p.moderngl_cpu, p.moderngl_wall)
+        cells = [p.curve, f"{p.value:,}", *map(_text, numbers), _text(p.ratio_cpu), _text(p.copy)]
+        rows.append("| " + " | ".join(cells) + " |")
+    return "\n".join(rows)
+
+
+def draw(points: list[Point], path: Path) -> None:
+    """Draw a picture of all curves: milliseconds of CPU time over the value, both logarithmic."""
+    import matplotlib as mpl
+
+    mpl.use("Agg")
+    import matplotlib.pyplot as plt
+
+    with mpl.rc_context({"svg.fonttype": "none", "svg.hashsalt": "cubecam", "font.size": 8}):
+        figure, panels = plt.subplots(2, 4, figsize=(9.6, 4.6), layout="constrained")
+        for curve, panel in zip(CURVES, panels.flat, strict=True):
+            found = _points_of(points, curve)
+            xs = [point.value for point in found]
+            series = (
+                ("cubecam", "o-", "#c0392b", [p.cubecam_cpu for p in found]),
+                ("moderngl, culled by hand", "s--", "#2c5f8a", [p.moderngl_cpu for p in found]),
+                ("copying the result", ":", "#777777", [p.copy for p in found]),
+            )
+            for name, style, color, ys in series:
+                numbers = [np.nan if y is None else y for y in ys]
+                panel.plot(xs, numbers, style, color=color, markersize=3, linewidth=1.2, label=name)
+            panel.set_title(curve.name, fontsize=9)
+            panel.set_yscale("log")
+            if curve.name != "outputs":
+                panel.set_xscale("log", base=10 if max(xs, default=1) > 600 else 2)
+            panel.set_xticks(xs, [f"{x // 1000}k" if x >= 2000 else str(x) for x in xs])
+            panel.set_xticks([], minor=True)
+            panel.grid(alpha=0.3)
+        panels[0, 0].legend(fontsize=6.5)
+        for panel in panels[:, 0]:
+            panel.set_ylabel("ms of CPU time")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        metadata = {"Date": None} if path.suffix == ".svg" else None
+        figure.savefig(path, metadata=metadata, dpi=120)
+        plt.close(figure)
+
+
+def record(points: list[Point], notes: list[str], found: dict[str, Any]) -> dict[str, Any]:
+    """One entry of the history."""
+    return {
+        "commit": _commit(),
+        "time": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
+        "machine": {key: value for key, value in found.items() if key != "gl"},
+        "driver": found["gl"],
+        "points": [dataclasses.asdict(point) for point in points],
+        "notes": notes,
+    }
+
+
+def _commit() -> str:
+    """The commit of this tree, with "+" if files differ from it; "unknown" without git."""
+    try:
+        head, changed = (
+            subprocess.run(
+                ["git", *words], cwd=ROOT, capture_output=True, text=True, check=True
+            ).stdout.strip()
+            for words in (["rev-parse", "HEAD"], ["status", "--porcelain", "-uno"])
+        )
+    except (OSError, subprocess.CalledProcessError):
+        return "unknown"
+    return head + ("+" if changed else "")
+
+
+def write_history(folder: Path, entry: dict[str, Any]) -> Path:
+    """Write an entry into a file of its own, whose name begins with its time."""
+    folder.mkdir(parents=True, exist_ok=True)
+    name = entry["time"][:19].replace(":", "").replace("-", "") + "-" + entry["commit"][:9]
+    path = folder / f"{name}.json"
+    path.write_text(json.dumps(entry, indent=1) + "\n")
+    return path
+
+
+def put_into(page: Path, text: str) -> None:
+    """Replace what stands between the marks of a document."""
+    before, _, rest = page.read_text().partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not end:
+        raise SystemExit(f"{page}: expected the marks {BEGIN} and {END}, found none")
+    page.write_text(f"{before}{BEGIN}\n\n{text.strip()}\n\n{END}{after}")
+
+
+CALLS = """
+import sys
+import cubecam as cc
+work, count = sys.argv[1], int(sys.argv[2])
+scene = cc.Scene(background=(0.2, 0.3, 0.4))
+if work == "unchanged":
+    scene.add(cc.Mesh.sphere(1), cc.PhongMaterial(), position=(0, 0, -3))
+    scene.add(cc.PointLight(position=(1, 2, 1)))
+with cc.Renderer() as renderer:
+    for number in range(count):
+        place = (0, 0, 0) if work == "unchanged" else (0.01 * number, 0, 0)
+        renderer.capture(scene, place, size=8, format="rgba8")
+"""
+COUNTED = {"unchanged": "a capture that is not drawn again", "empty": "a capture of an empty scene"}
+
+
+def instructions(work: str, few: int = 20, many: int = 120) -> float:
+    """Instructions of one call, of all threads: of many calls without those of few, by valgrind."""
+    counts = []
+    for count in (few, many):
+        command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null"]
+        command += [sys.executable, "-c", CALLS, work, str(count)]
+        env = {**os.environ, "LP_NUM_THREADS": "0", "PYTHONHASHSEED": "0"}
+        done = subprocess.run(command, cwd=ROOT, env=env, capture_output=True, text=True)
+        said = [text for text in done.stderr.splitlines() if "Collected :" in text]
+        if done.returncode or not said:
+            raise WorkerError((done.stderr.splitlines() or ["valgrind wrote nothing"])[-1])
+        counts.append(int(said[-1].split(":")[-1]))
+    return (counts[1] - counts[0]) / (many - few)
+
+
+def _callgrind(console: Console) -> int:
+    if shutil.which("valgrind") is None:
+        console.print("expected valgrind on PATH, found none")
+        return 1
+    for work, meaning in COUNTED.items():
+        console.print(f"{meaning}: {instructions(work):,.0f} instructions", highlight=False)
+    return 0
+
+
+def _show(console: Console, points: list[Point]) -> None:
+    table = Table(title="ms of a frame: CPU time of all threads / by the clock", title_justify="left")
+    for name in ("curve", "value", "cubecam", "moderngl", "CPU over it", "copying"):
+        table.add_column(name, justify="left" if name == "curve" else "right")
+    for p in points:
+        own = f"{p.cubecam_cpu:.2f} / {p.cubecam_wall:.2f}"
+        other = "" if p.moderngl_cpu is None else f"{p.moderngl_cpu:.2f} / {p.moderngl_wall:.2f}"
+        table.add_row(p.curve, f"{p.value:,}", own, other, _text(p.ratio_cpu), f"{p.copy:.3f}")
+    console.print(table)
+
+
+def main(arguments: list[str]) -> int:
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.curves")
+    parser.add_argument("--only", action="append", choices=[curve.name for curve in CURVES])
+    parser.add_argument("--quick", action="store_true", help="fewer rounds: noisier")
+    parser.add_argument("--history", type=Path, metavar="DIR", help="gets a file for this run")
+    parser.add_argument("--page", type=Path, metavar="FILE", help="a document that gets the tables")
+    parser.add_argument(
+        "--picture", type=Path, default=PICTURE, help="where the figure of --page goes"
+    )
+    parser.add_argument(
+        "--callgrind", action="store_true", help="only count the instructions of two calls"
+    )
+    options = parser.parse_args(arguments)
+    console = Console()
+    if not console.is_terminal:
+        console.width = 110
+    if options.callgrind:
+        return _callgrind(console)
+    if options.page and options.only:
+        parser.error("--page: expected all curves, got --only")
+    points: list[Point] = []
+    notes: list[str] = []
+    for curve in CURVES:
+        if options.only and curve.name not in options.only:
+            continue
+        for value in curve.values:
+            with console.status(f"{curve.name} {value} ..."):
+                found = measure(curve, value, 3 if options.quick else 7)
+            if isinstance(found, str):
+                notes.append(found)
+            else:
+                points.append(found)
+    _show(console, points)
+    for note in notes:
+        console.print(f"left out: {note}", highlight=False)
+    entry = record(points, notes, machine.describe())
+    if options.history:
+        console.print(f"wrote {write_history(options.history, entry)}", highlight=False)
+    if options.page:
+        draw(points, options.picture)
+        where = ", ".join(f"{key} {value}" for key, value in entry["machine"].items() if key != "load")
+        measured = f"Measured with {entry['driver']}; {where}."
+        left_out = "".join(f"\n\nLeft out: {note}." for note in notes)
+        text = f"{lines_markdown(points)}\n\n{points_markdown(points)}\n\n{measured}{left_out}"
+        put_into(options.page, text)
+    return int(any("other pictures" in note for note in notes))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
