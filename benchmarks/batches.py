@@ -42,7 +42,9 @@ BATCH, SINGLE, MODERNGL = (
 STEPS, FAR_OFF, OUTLIERS = 2, 1e-3, 0.002
 
 Arrays = dict[str, np.ndarray]
-Times = dict[str, list[float]]  # CPU ("cpu") and clock ("wall") milliseconds of a frame, a median for each round
+Times = dict[
+    str, list[float]
+]  # CPU ("cpu") and clock ("wall") milliseconds of a frame, a median for each round
 
 
 def arrays_of(program: CpuWorker, frame: int) -> Arrays:

@@ -35,7 +35,9 @@ class _Steps:
         self.program = program
         self.prepare = getattr(program, "prepare", _nothing)
         self.move = getattr(program, "move", _nothing) if hasattr(program, "draw") else _nothing
-        self.draw = program.draw if hasattr(program, "draw") else getattr(program, "frame", _nothing)
+        self.draw = (
+            program.draw if hasattr(program, "draw") else getattr(program, "frame", _nothing)
+        )
 
     def picture(self, index: int) -> np.ndarray:
         self.prepare(index)

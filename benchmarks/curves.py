@@ -5,9 +5,9 @@
     python -m benchmarks.curves --history out/curves --page docs/explanation/cost_curves.md
 
 Each curve changes one number of a field (`benchmarks/field.py`): teapots on a ground, captured from a place that is
-another one for each frame, so that all faces are drawn. At each point cubecam and a program in moderngl that culls by
-hand draw the same frames, their arrays are compared first, and then they take turns. A third time is that of copying
-the result's bytes, which nothing can be below. Times are medians, CPU time of all threads and time by the clock.
+another one for each frame, so that all faces are drawn. At each point cubecam, and programs in moderngl and ZenGL that
+cull by hand, draw the same frames; their arrays are compared first, and then they take turns. A last time is that of
+copying the result's bytes, which nothing can be below. Times are medians: CPU time of all threads, and by the clock.
 
 `--history` gets a file for each run: commit, machine, driver and all points. `--page` writes the table and the lines
 into a document, between its marks, and the figure beside it. `--callgrind` counts instructions with valgrind.
@@ -41,6 +41,9 @@ from .processes import ROOT, CpuWorker, WorkerError
 BEGIN, END = "<!-- benchmarks.curves -->", "<!-- end -->"
 PICTURE = ROOT / "docs" / "images" / "cost-curves.svg"
 OUTPUTS = ("distance", "normal", "position", "z")
+#: Programs that draw the same, whose objects are culled by hand.
+PEERS = {"moderngl": batches.MODERNGL, "ZenGL": "peers.batches_zengl:Culled"}
+OWN, OTHER_PICTURES = "cubecam", "other pictures"
 BASE: dict[str, Any] = {"probes": 1, "size": 128, "outputs": []}
 
 
@@ -107,19 +110,19 @@ CURVES = (
 
 @dataclasses.dataclass
 class Point:
-    """The times of one value of a curve, milliseconds; without moderngl's if it cannot draw the same."""
+    """The times of one value of a curve, milliseconds, by programs' names; a peer that draws something else has none.
+
+    `cpu_ratio` and `wall_ratio` are cubecam's time over the peer's, the median of the rounds' ratios.
+    """
 
     curve: str
     value: int
-    cubecam_cpu: float
-    cubecam_wall: float
-    moderngl_cpu: float | None
-    moderngl_wall: float | None
-    ratio_cpu: float | None  # cubecam over moderngl, the median of the rounds' ratios
-    ratio_wall: float | None
+    cpu: dict[str, float]
+    wall: dict[str, float]
+    cpu_ratio: dict[str, float]
+    wall_ratio: dict[str, float]
     copy: float  # of the result's bytes, by np.copyto into memory that is kept
     bytes: int
-    note: str = ""
 
 
 def scale(curve: str, value: float) -> float:
@@ -133,52 +136,63 @@ def copy_ms(arrays: batches.Arrays) -> float:
     """Milliseconds of copying arrays into memory that is kept."""
     kept = [np.zeros_like(array) for array in arrays.values()]
     times = []
-    for _ in range(7):
+    for _ in range(15):
         start = time.perf_counter()
         for into, array in zip(kept, arrays.values(), strict=True):
             np.copyto(into, array)
         times.append((time.perf_counter() - start) * 1e3)
-    return statistics.median(times)
+    return min(times)
 
 
-def measure(curve: Curve, value: int, rounds: int, base: dict[str, Any] = BASE) -> Point | str:
-    """Measure one point; a text if it cannot be measured or if the programs draw different pictures."""
+def measure(
+    curve: Curve, value: int, rounds: int, base: dict[str, Any] = BASE
+) -> tuple[Point | None, list[str]]:
+    """One point, None if cubecam cannot draw it, and what was left out, in words."""
     options = {**base, **curve.options(value)}
+    notes: list[str] = []
+    programs: dict[str, CpuWorker] = {}
+    own: batches.Arrays = {}
     with ExitStack() as stack:
-        programs = []
-        note = ""
-        for name in (curve.program, batches.MODERNGL):
+        for name, path in {OWN: curve.program, **PEERS}.items():
             try:
-                program = CpuWorker(name, **options)
+                program = CpuWorker(path, **options)
                 stack.callback(program.close)
                 arrays = batches.arrays_of(program, 1)
             except WorkerError as error:
-                if not programs:
-                    return f"{curve.name} {value}: {error}"
-                note = f"moderngl: {error}"
-                continue
-            if programs:
-                if wrong := batches.difference(own, arrays):  # noqa: F821 - set by the first program
-                    return f"{curve.name} {value}: other pictures: {wrong}"
+                notes.append(f"{curve.name} {value}, {name}: {error}")
             else:
-                own = arrays
-            programs.append(program)
-        found = batches.turns(programs, rounds)
-    middle = [{name: statistics.median(times[name]) for name in times} for times in found]
-    both = len(found) == 2
-    return Point(
+                own = own or arrays
+                if wrong := batches.difference(own, arrays):
+                    notes.append(f"{curve.name} {value}, {name}: {OTHER_PICTURES}: {wrong}")
+                else:
+                    programs[name] = program
+            if OWN not in programs:
+                return None, notes
+        found = dict(zip(programs, batches.turns(list(programs.values()), rounds), strict=True))
+    middle = {
+        clock: {name: statistics.median(times[clock]) for name, times in found.items()}
+        for clock in ("cpu", "wall")
+    }
+    ratios = {
+        clock: {
+            name: batches.ratio(found[OWN][clock], times[clock])
+            for name, times in found.items()
+            if name != OWN
+        }
+        for clock in ("cpu", "wall")
+    }
+    size = sum(array.nbytes for array in own.values())
+    point = Point(
         curve.name,
         value,
-        middle[0]["cpu"],
-        middle[0]["wall"],
-        middle[1]["cpu"] if both else None,
-        middle[1]["wall"] if both else None,
-        batches.ratio(found[0]["cpu"], found[1]["cpu"]) if both else None,
-        batches.ratio(found[0]["wall"], found[1]["wall"]) if both else None,
+        middle["cpu"],
+        middle["wall"],
+        ratios["cpu"],
+        ratios["wall"],
         copy_ms(own),
-        sum(array.nbytes for array in own.values()),
-        note,
+        size,
     )
+    return point, notes
 
 
 def line(xs: Iterable[float], ys: Iterable[float]) -> tuple[float, float]:
@@ -198,22 +212,24 @@ def _text(value: float | None) -> str:
 
 def lines_markdown(points: list[Point]) -> str:
     """A table of the lines through the curves' points."""
+    names = [OWN, *PEERS]
     rows = [
-        "| curve | what stays | cubecam, ms of CPU time | moderngl, culled by hand |",
-        "|---|---|---|---|",
+        f"| curve | what stays | {' | '.join(names)} | one more is |",
+        "|---" * (3 + len(names)) + "|",
     ]
     for curve in CURVES:
         found = _points_of(points, curve)
-        if len(found) < 2:
-            continue
-        xs = [scale(curve.name, point.value) for point in found]
-        a, b = line(xs, [point.cubecam_cpu for point in found])
-        own, other = f"{_signed(a)} + {b:.3g} a {curve.unit}", ""
-        times = [point.moderngl_cpu for point in found if point.moderngl_cpu is not None]
-        if len(times) == len(found):
-            a, b = line(xs, times)
-            other = f"{_signed(a)} + {b:.3g}"
-        rows.append(f"| {curve.name} | {curve.fixed} | {own} | {other} |")
+        cells = []
+        for name in names:
+            known = [point for point in found if name in point.cpu]
+            if len(known) < 2:
+                cells.append("")
+                continue
+            xs = [scale(curve.name, point.value) for point in known]
+            a, b = line(xs, [point.cpu[name] for point in known])
+            cells.append(f"{_signed(a)} + {b:.3g}")
+        if found:
+            rows.append(f"| {curve.name} | {curve.fixed} | {' | '.join(cells)} | {curve.unit} |")
     return "\n".join(rows)
 
 
@@ -223,15 +239,31 @@ def _signed(value: float) -> str:
 
 def points_markdown(points: list[Point]) -> str:
     """A table of all points."""
-    rows = [
-        "| curve | value | cubecam CPU | by the clock | moderngl CPU | by the clock | CPU over moderngl | copying the result |",
-        "|---|---|---|---|---|---|---|---|",
-    ]
+    heads = ["curve", "value", OWN, *(f"{name}" for name in PEERS)]
+    heads += [f"CPU over {name}" for name in PEERS] + ["copying the result"]
+    rows = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     for p in points:
-        numbers = (p.cubecam_cpu, p.cubecam_wall, p.moderngl_cpu, p.moderngl_wall)
-        cells = [p.curve, f"{p.value:,}", *map(_text, numbers), _text(p.ratio_cpu), _text(p.copy)]
-        rows.append("| " + " | ".join(cells) + " |")
+        cells = [p.curve, f"{p.value:,}"]
+        cells += [_both(p, name) for name in (OWN, *PEERS)]
+        cells += [_text(p.cpu_ratio.get(name)) for name in PEERS] + [_text(p.copy)]
+        rows.append(f"| {' | '.join(cells)} |")
     return "\n".join(rows)
+
+
+def _both(point: Point, name: str) -> str:
+    """CPU time and time by the clock."""
+    if name not in point.cpu:
+        return ""
+    return f"{_text(point.cpu[name])} / {_text(point.wall[name])}"
+
+
+COPYING = "copying the result"
+STYLES = {
+    OWN: ("o-", "#c0392b"),
+    "moderngl": ("s--", "#2c5f8a"),
+    "ZenGL": ("^--", "#3b8a5a"),
+    COPYING: (":", "#777777"),
+}
 
 
 def draw(points: list[Point], path: Path) -> None:
@@ -246,14 +278,9 @@ def draw(points: list[Point], path: Path) -> None:
         for curve, panel in zip(CURVES, panels.flat, strict=True):
             found = _points_of(points, curve)
             xs = [point.value for point in found]
-            series = (
-                ("cubecam", "o-", "#c0392b", [p.cubecam_cpu for p in found]),
-                ("moderngl, culled by hand", "s--", "#2c5f8a", [p.moderngl_cpu for p in found]),
-                ("copying the result", ":", "#777777", [p.copy for p in found]),
-            )
-            for name, style, color, ys in series:
-                numbers = [np.nan if y is None else y for y in ys]
-                panel.plot(xs, numbers, style, color=color, markersize=3, linewidth=1.2, label=name)
+            for name, (style, color) in STYLES.items():
+                ys = [p.copy if name == COPYING else p.cpu.get(name, np.nan) for p in found]
+                panel.plot(xs, ys, style, color=color, markersize=3, linewidth=1.2, label=name)
             panel.set_title(curve.name, fontsize=9)
             panel.set_yscale("log")
             if curve.name != "outputs":
@@ -275,7 +302,7 @@ def record(points: list[Point], notes: list[str], found: dict[str, Any]) -> dict
     return {
         "commit": _commit(),
         "time": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
-        "machine": {key: value for key, value in found.items() if key != "gl"},
+        "machine": {k: v for k, v in found.items() if k != "gl" and v != "absent"},
         "driver": found["gl"],
         "points": [dataclasses.asdict(point) for point in points],
         "notes": notes,
@@ -355,13 +382,14 @@ def _callgrind(console: Console) -> int:
 
 
 def _show(console: Console, points: list[Point]) -> None:
-    table = Table(title="ms of a frame: CPU time of all threads / by the clock", title_justify="left")
-    for name in ("curve", "value", "cubecam", "moderngl", "CPU over it", "copying"):
+    table = Table(title="ms of a frame: CPU time of all threads / by the clock")
+    heads = ["curve", "value", OWN, *PEERS, *(f"CPU over {name}" for name in PEERS), "copying"]
+    for name in heads:
         table.add_column(name, justify="left" if name == "curve" else "right")
     for p in points:
-        own = f"{p.cubecam_cpu:.2f} / {p.cubecam_wall:.2f}"
-        other = "" if p.moderngl_cpu is None else f"{p.moderngl_cpu:.2f} / {p.moderngl_wall:.2f}"
-        table.add_row(p.curve, f"{p.value:,}", own, other, _text(p.ratio_cpu), f"{p.copy:.3f}")
+        both = [_both(p, name) for name in (OWN, *PEERS)]
+        ratios = [_text(p.cpu_ratio.get(name)) for name in PEERS]
+        table.add_row(p.curve, f"{p.value:,}", *both, *ratios, _text(p.copy))
     console.print(table)
 
 
@@ -392,11 +420,9 @@ def main(arguments: list[str]) -> int:
             continue
         for value in curve.values:
             with console.status(f"{curve.name} {value} ..."):
-                found = measure(curve, value, 3 if options.quick else 7)
-            if isinstance(found, str):
-                notes.append(found)
-            else:
-                points.append(found)
+                point, left_out = measure(curve, value, 3 if options.quick else 7)
+            points += [point] if point else []
+            notes += left_out
     _show(console, points)
     for note in notes:
         console.print(f"left out: {note}", highlight=False)
@@ -405,12 +431,14 @@ def main(arguments: list[str]) -> int:
         console.print(f"wrote {write_history(options.history, entry)}", highlight=False)
     if options.page:
         draw(points, options.picture)
-        where = ", ".join(f"{key} {value}" for key, value in entry["machine"].items() if key != "load")
+        where = ", ".join(
+            f"{key} {value}" for key, value in entry["machine"].items() if key != "load"
+        )
         measured = f"Measured with {entry['driver']}; {where}."
         left_out = "".join(f"\n\nLeft out: {note}." for note in notes)
         text = f"{lines_markdown(points)}\n\n{points_markdown(points)}\n\n{measured}{left_out}"
         put_into(options.page, text)
-    return int(any("other pictures" in note for note in notes))
+    return int(any(OTHER_PICTURES in note for note in notes))
 
 
 if __name__ == "__main__":

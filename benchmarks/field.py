@@ -81,6 +81,11 @@ class Field:
         return scene.knot_mesh(2.0, around, across)
 
     @cached_property
+    def radius(self) -> float:
+        """The radius of the sphere round the middle of an object that holds it."""
+        return float(np.linalg.norm(self.mesh.positions, axis=1).max())
+
+    @cached_property
     def ground(self) -> scene.MeshArrays:
         """A square of the side GROUND in the XZ plane."""
         unit = scene.ground_mesh()
@@ -116,3 +121,24 @@ class Field:
         """(probes, 3) float64: the places of a frame's cubemaps, above the objects; other ones for each frame."""
         random = np.random.default_rng(1000 + frame)
         return random.uniform((-4.0, 1.5, -4.0), (4.0, 3.0, 4.0), (self.probes, 3))
+
+    def seen(self, positions: np.ndarray) -> list[list[list[int]]]:
+        """For each place and face the objects whose bounding spheres touch the face's pyramid."""
+        away = self.places - positions[:, None]  # (probes, nodes, 3)
+        reach = self.radius * np.sqrt(2)
+        seen = []
+        for face in range(6):
+            axis, sign = face // 2, 1 - 2 * (face % 2)
+            sides = np.abs(np.delete(away, axis, axis=-1)).max(axis=-1)
+            seen.append(sides - sign * away[..., axis] <= reach)
+        return [[np.flatnonzero(row).tolist() for row in rows] for rows in np.stack(seen, axis=1)]
+
+    def results(self, count: int) -> dict[str, np.ndarray]:
+        """Arrays of undefined numbers for `count` cubemaps: "faces" and the outputs."""
+        shape = (count, 6, self.size, self.size)
+        kind = np.uint8 if self.format == "rgba8" else np.float32
+        found = {"faces": np.empty((*shape, 4), kind)}
+        for name in self.outputs:
+            more = (3,) if name in ("normal", "position") else ()
+            found[name] = np.empty(shape + more, np.float32)
+        return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -96,7 +97,10 @@ class Single(_Field):
 
     def arrays(self, index: int) -> dict[str, np.ndarray]:
         """The colours as "faces", and the outputs by their names."""
-        cubes = [self.renderer.capture(self.scene, at, **self.options) for at in self.plan.positions(index)]
+        cubes = [
+            self.renderer.capture(self.scene, at, **self.options)
+            for at in self.plan.positions(index)
+        ]
         found = {"faces": np.stack([cube.faces for cube in cubes])}
         for name in self.plan.outputs:
             found[name] = np.stack([getattr(cube, name) for cube in cubes])
@@ -129,8 +133,7 @@ class Scenes:
 
 def _resident() -> int:
     """Bytes of the process's memory that are in RAM."""
-    with open("/proc/self/status") as lines:
-        for line in lines:
-            if line.startswith("VmRSS"):
-                return int(line.split()[1]) * 1024
+    for line in Path("/proc/self/status").read_text().splitlines():
+        if line.startswith("VmRSS"):
+            return int(line.split()[1]) * 1024
     raise OSError("expected a line VmRSS in /proc/self/status, found none")

@@ -70,6 +70,18 @@ OUTPUTS: dict[str, tuple[int, int, str, float]] = {
 }
 
 
+def declared(fragment: str, plan: field.Field) -> str:
+    """A fragment shader with the outputs and the number of lights of a field."""
+    outputs, writes = "", ""
+    for number, name in enumerate(plan.outputs, 1):
+        channels, _, value, _ = OUTPUTS[name]
+        kind = "float" if channels == 1 else "vec4"
+        outputs += f"layout (location = {number}) out {kind} out_{name};\n"
+        writes += f"    out_{name} = {value};\n"
+    fragment = fragment.replace("OUTPUTS\n", outputs).replace("WRITES\n", writes)
+    return fragment.replace("LIGHTS", str(plan.lights))
+
+
 class Culled:
     """The field in one moderngl context; `at_once`: how many cubemaps are read by one call, one above the other."""
 
@@ -82,16 +94,9 @@ class Culled:
         )
         self.ctx = ctx = moderngl.create_context(context=backend)
         ctx.enable(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-        declared, writes = "", ""
-        for number, name in enumerate(plan.outputs, 1):
-            channels, _, value, _ = OUTPUTS[name]
-            kind = "float" if channels == 1 else "vec4"
-            declared += f"layout (location = {number}) out {kind} out_{name};\n"
-            writes += f"    out_{name} = {value};\n"
-        fragment = FRAGMENT.replace("OUTPUTS\n", declared).replace("WRITES\n", writes)
         self.program = program = ctx.program(
             vertex_shader=VERTEX.lstrip(),
-            fragment_shader=fragment.lstrip().replace("LIGHTS", str(max(1, plan.lights))),
+            fragment_shader=declared(FRAGMENT, plan).lstrip(),
         )
         program["weights"].value = (field.KA, field.KD, field.KS, field.SHININESS)
         program["lights"].write(plan.light_places.astype(np.float32).tobytes())
@@ -101,11 +106,10 @@ class Culled:
         self.mesh, self.ground = (self._array(mesh) for mesh in (plan.mesh, plan.ground))
         self.unmoved = np.eye(4, dtype=np.float32).tobytes()
         self.models = [
-            matrix_bytes(_model(place, turn))
+            matrix_bytes(model_matrix(place, turn))
             for place, turn in zip(plan.places, plan.turns, strict=True)
         ]
         self.colors = [tuple(plan.palette[i % plan.colors].tolist()) for i in range(plan.nodes)]
-        self.radius = float(np.linalg.norm(plan.mesh.positions, axis=1).max())
         self.projection = scene.perspective(90, 1, field.NEAR, field.FAR)
         self.turned = [
             self.projection @ scene.look_at((0, 0, 0), forward, up)
@@ -140,13 +144,8 @@ class Culled:
     def draw(self, index: int) -> dict[str, np.ndarray]:
         """(probes, 6, N, N, ...) arrays: "faces" and the outputs."""
         plan, n, count = self.plan, self.plan.size, len(self.positions)
-        kind = np.uint8 if plan.format == "rgba8" else np.float32
-        found = {"faces": np.empty((count, 6, n, n, 4), kind)}
-        for name in plan.outputs:
-            channels = OUTPUTS[name][1]
-            shape = (count, 6, n, n) + ((channels,) if channels > 1 else ())
-            found[name] = np.empty(shape, np.float32)
-        seen = self._seen()
+        found = plan.results(count)
+        seen = plan.seen(self.positions)
         for number, place in enumerate(self.positions):
             row = number % self.at_once
             if row == 0:
@@ -173,18 +172,6 @@ class Culled:
                 self._read(found, number - row, number + 1)
         return found
 
-    def _seen(self) -> list[list[list[int]]]:
-        """For each place and face the nodes whose spheres touch the face's pyramid."""
-        away = self.plan.places - self.positions[:, None]  # (probes, nodes, 3)
-        reach = self.radius * np.sqrt(2)
-        seen = []
-        for face in range(6):
-            axis, sign = face // 2, 1 - 2 * (face % 2)
-            ahead = sign * away[..., axis]
-            sides = np.abs(np.delete(away, axis, axis=-1)).max(axis=-1)
-            seen.append(sides - ahead <= reach)
-        return [[np.flatnonzero(row).tolist() for row in rows] for rows in np.stack(seen, axis=1)]
-
     def _read(self, found: dict[str, np.ndarray], first: int, end: int) -> None:
         target = self.target
         if self.resolved is not None:
@@ -207,7 +194,7 @@ class Culled:
         return self.draw(index)
 
 
-def _model(place: np.ndarray, turn: float) -> np.ndarray:
+def model_matrix(place: np.ndarray, turn: float) -> np.ndarray:
     """(4, 4): a turn about the Y axis, then a move."""
     matrix = np.eye(4)
     cos, sin = np.cos(turn), np.sin(turn)
