@@ -21,6 +21,7 @@ import statistics
 import sys
 import tempfile
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -142,7 +143,12 @@ def empty_marks(rounds: int) -> Section:
     section = Section("empty", "a cubemap of an empty scene, ms of CPU time")
     for pixels in ("rgba8", "rgba32f"):
         for memory in ("fresh", "recycled"):
-            options = {"nodes": 0, "format": pixels, "outputs": [], "memory": memory}
+            options: dict[str, Any] = {
+                "nodes": 0,
+                "format": pixels,
+                "outputs": [],
+                "memory": memory,
+            }
             options["probes"] = GROUP
             with ExitStack() as stack:
                 programs = [_started(stack, name, options) for name in (BATCH, SINGLE)]
@@ -184,11 +190,12 @@ def run(quick: bool) -> list[Section]:
     """All marks of batches."""
     rounds = 3 if quick else -(-PROBES // (2 * GROUP)) + 4
     sections = []
-    for measure in (
-        lambda: field_marks(rounds),
-        lambda: empty_marks(rounds),
-        lambda: memory_marks(1000 if quick else 10_000),
-    ):
+    measures = [
+        partial(field_marks, rounds),
+        partial(empty_marks, rounds),
+        partial(memory_marks, 1000 if quick else 10_000),
+    ]
+    for measure in measures:
         try:
             sections.append(measure())
         except WorkerError as error:

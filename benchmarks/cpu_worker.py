@@ -32,11 +32,13 @@ class _Steps:
     """Those steps of a frame that a program has."""
 
     def __init__(self, program: Any) -> None:
-        self.program = program
-        self.prepare = getattr(program, "prepare", _nothing)
-        self.move = getattr(program, "move", _nothing) if hasattr(program, "draw") else _nothing
-        self.draw = (
-            program.draw if hasattr(program, "draw") else getattr(program, "frame", _nothing)
+        self.program: Any = program
+        self.prepare: Any = getattr(program, "prepare", _nothing)
+        self.move: Any = (
+            getattr(program, "move", _nothing) if hasattr(program, "draw") else _nothing
+        )
+        self.draw: Any = (
+            program.draw if hasattr(program, "draw") else getattr(program, "frame", None)
         )
 
     def picture(self, index: int) -> np.ndarray:

@@ -286,7 +286,7 @@ def draw(points: list[Point], path: Path) -> None:
             if curve.name != "outputs":
                 panel.set_xscale("log", base=10 if max(xs, default=1) > 600 else 2)
             panel.set_xticks(xs, [f"{x // 1000}k" if x >= 2000 else str(x) for x in xs])
-            panel.set_xticks([], minor=True)
+            panel.minorticks_off()
             panel.grid(alpha=0.3)
         panels[0, 0].legend(fontsize=6.5)
         for panel in panels[:, 0]:
@@ -435,8 +435,8 @@ def main(arguments: list[str]) -> int:
             f"{key} {value}" for key, value in entry["machine"].items() if key != "load"
         )
         measured = f"Measured with {entry['driver']}; {where}."
-        left_out = "".join(f"\n\nLeft out: {note}." for note in notes)
-        text = f"{lines_markdown(points)}\n\n{points_markdown(points)}\n\n{measured}{left_out}"
+        missing = "".join(f"\n\nLeft out: {note}." for note in notes)
+        text = f"{lines_markdown(points)}\n\n{points_markdown(points)}\n\n{measured}{missing}"
         put_into(options.page, text)
     return int(any(OTHER_PICTURES in note for note in notes))
 

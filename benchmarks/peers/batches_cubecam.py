@@ -63,19 +63,21 @@ class _Field:
     def prepare(self, index: int) -> None:
         self.positions = self.plan.positions(index)
 
-    def keep(self, found: Any) -> Any:
+    def keep(self, found: Any) -> None:
+        """Hold a result until the end, if the next one shall have fresh memory."""
         if self.kept is not None:
             self.kept.append(found)
-        return found
 
 
 class Batch(_Field):
     """One call for all cubemaps of a frame."""
 
     def draw(self, index: int) -> cc.CubeMapBatch:
-        return self.keep(
-            self.renderer.capture_many(self.scene, self.positions, progress=False, **self.options)
+        batch = self.renderer.capture_many(
+            self.scene, self.positions, progress=False, **self.options
         )
+        self.keep(batch)
+        return batch
 
     def arrays(self, index: int) -> dict[str, np.ndarray]:
         """The colours as "faces", and the outputs by their names."""
@@ -87,13 +89,12 @@ class Batch(_Field):
 class Single(_Field):
     """A call for each cubemap."""
 
-    def draw(self, index: int) -> list[cc.CubeMap]:
+    def draw(self, index: int) -> cc.CubeMap:
         capture, scene, options = self.renderer.capture, self.scene, self.options
-        if self.kept is None:
-            for place in self.positions:
-                last = capture(scene, place, **options)
-            return [last]
-        return self.keep([capture(scene, place, **options) for place in self.positions])
+        for place in self.positions:
+            last = capture(scene, place, **options)
+            self.keep(last)
+        return last
 
     def arrays(self, index: int) -> dict[str, np.ndarray]:
         """The colours as "faces", and the outputs by their names."""

@@ -46,6 +46,7 @@ class Culled:
         self.depth.clear_value = 1.0
         self.resolved = ctx.image(size, self.colors) if samples > 1 else None
         self.view = ctx.buffer(size=96, uniform=True)
+        self.lights = ctx.buffer(plan.light_places.astype(np.float32), uniform=True)
         projection = scene.perspective(90, 1, field.NEAR, field.FAR)
         self.turned = [
             projection @ scene.look_at((0, 0, 0), forward, up)
@@ -67,24 +68,22 @@ class Culled:
         plan = self.plan
         vertex = VERTEX.replace("uniform mat4 view_projection;\n", VIEW).lstrip()
         weights = ", ".join(map(str, (field.KA, field.KD, field.KS, field.SHININESS)))
-        lights = ", ".join(
-            f"vec4({', '.join(map(str, row))})" for row in plan.light_places.tolist()
-        )
         fragment = declared(FRAGMENT, plan).replace("uniform vec3 eye;\n", VIEW)
         fragment = fragment.replace("uniform vec3 forward;\n", "")
         fragment = fragment.replace(
             "uniform vec4 weights;", f"const vec4 weights = vec4({weights});"
         )
-        count_text = f"[{plan.lights}]"
-        fragment = fragment.replace(
-            f"uniform vec4 lights{count_text};",
-            f"const vec4 lights{count_text} = vec4{count_text}({lights});",
-        )
+        many = f"uniform vec4 lights[{plan.lights}];"
+        block = f"layout (std140) uniform Lights {{ vec4 lights[{plan.lights}]; }};"
+        fragment = fragment.replace(many, block)
         return self.ctx.pipeline(
             vertex_shader=vertex,
             fragment_shader=fragment.lstrip(),
-            layout=[{"name": "View", "binding": 0}],
-            resources=[{"type": "uniform_buffer", "binding": 0, "buffer": self.view}],
+            layout=[{"name": "View", "binding": 0}, {"name": "Lights", "binding": 1}],
+            resources=[
+                {"type": "uniform_buffer", "binding": 0, "buffer": self.view},
+                {"type": "uniform_buffer", "binding": 1, "buffer": self.lights},
+            ],
             uniforms={
                 "model": model.T.ravel().tolist(),  # columns first, as in GL
                 "color": np.asarray(color, float).tolist(),
