@@ -5,8 +5,8 @@
     python -m benchmarks.curves --history out/curves --page docs/explanation/cost_curves.md
 
 Each curve changes one number of a field (`benchmarks/field.py`): teapots on a ground, captured from a place that is
-another one for each frame, so that all faces are drawn. At each point cubecam, and programs in moderngl and ZenGL that
-cull by hand, draw the same frames; their arrays are compared first, and then they take turns. A last time is that of
+another one for each frame, so that all faces are drawn. At each point cubecam, programs in moderngl and ZenGL that
+cull by hand, and VTK draw the same frames; their arrays are compared first, and then they take turns. A last time is that of
 copying the result's bytes, which nothing can be below. Times are medians: CPU time of all threads, and by the clock.
 
 `--history` gets a file for each run: commit, machine, driver and all points. `--page` writes the table and the lines
@@ -27,6 +27,7 @@ import sys
 import time
 from collections.abc import Callable, Iterable
 from contextlib import ExitStack
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -41,8 +42,13 @@ from .processes import ROOT, CpuWorker, WorkerError
 BEGIN, END = "<!-- benchmarks.curves -->", "<!-- end -->"
 PICTURE = ROOT / "docs" / "images" / "cost-curves.svg"
 OUTPUTS = ("distance", "normal", "position", "z")
-#: Programs that draw the same, whose objects are culled by hand.
-PEERS = {"moderngl": batches.MODERNGL, "ZenGL": "peers.batches_zengl:Culled"}
+#: Programs that draw the same: in moderngl and ZenGL their objects are culled by hand, VTK has its own culler.
+PEERS = {
+    "moderngl": batches.MODERNGL,
+    "ZenGL": "peers.batches_zengl:Culled",
+    "VTK": "peers.batches_vtk:Actors",
+}
+COLORS_ALONE = {"VTK"}
 OWN, OTHER_PICTURES = "cubecam", "other pictures"
 BASE: dict[str, Any] = {"probes": 1, "size": 128, "outputs": []}
 
@@ -144,6 +150,11 @@ def copy_ms(arrays: batches.Arrays) -> float:
     return min(times)
 
 
+def installed() -> dict[str, str]:
+    """Those of PEERS whose packages there are."""
+    return {name: path for name, path in PEERS.items() if find_spec(name.lower()) is not None}
+
+
 def measure(
     curve: Curve, value: int, rounds: int, base: dict[str, Any] = BASE
 ) -> tuple[Point | None, list[str]]:
@@ -153,7 +164,9 @@ def measure(
     programs: dict[str, CpuWorker] = {}
     own: batches.Arrays = {}
     with ExitStack() as stack:
-        for name, path in {OWN: curve.program, **PEERS}.items():
+        for name, path in {OWN: curve.program, **installed()}.items():
+            if name in COLORS_ALONE and options["outputs"]:
+                continue
             try:
                 program = CpuWorker(path, **options)
                 stack.callback(program.close)
@@ -168,7 +181,17 @@ def measure(
                     programs[name] = program
             if OWN not in programs:
                 return None, notes
-        found = dict(zip(programs, batches.turns(list(programs.values()), rounds), strict=True))
+        found = dict(
+            zip(
+                programs,
+                batches.turns(
+                    list(programs.values()),
+                    rounds,
+                    5 if value < 512 and curve.name != "probes" else 3,
+                ),
+                strict=True,
+            )
+        )
     middle = {
         clock: {name: statistics.median(times[clock]) for name, times in found.items()}
         for clock in ("cpu", "wall")
@@ -262,6 +285,7 @@ STYLES = {
     OWN: ("o-", "#c0392b"),
     "moderngl": ("s--", "#2c5f8a"),
     "ZenGL": ("^--", "#3b8a5a"),
+    "VTK": ("d--", "#9a6bb0"),
     COPYING: (":", "#777777"),
 }
 
@@ -357,28 +381,41 @@ with cc.Renderer() as renderer:
 COUNTED = {"unchanged": "a capture that is not drawn again", "empty": "a capture of an empty scene"}
 
 
-def instructions(work: str, few: int = 20, many: int = 120) -> float:
-    """Instructions of one call, of all threads: of many calls without those of few, by valgrind."""
-    counts = []
-    for count in (few, many):
-        command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null"]
-        command += [sys.executable, "-c", CALLS, work, str(count)]
-        env = {**os.environ, "LP_NUM_THREADS": "0", "PYTHONHASHSEED": "0"}
-        done = subprocess.run(command, cwd=ROOT, env=env, capture_output=True, text=True)
-        said = [text for text in done.stderr.splitlines() if "Collected :" in text]
-        if done.returncode or not said:
-            raise WorkerError((done.stderr.splitlines() or ["valgrind wrote nothing"])[-1])
-        counts.append(int(said[-1].split(":")[-1]))
-    return (counts[1] - counts[0]) / (many - few)
+def _counted(work: str, calls: int) -> int:
+    """All instructions of a process that makes some calls."""
+    command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null"]
+    command += [sys.executable, "-c", CALLS, work, str(calls)]
+    # Neither threads nor a cache of compiled shaders may make one process do more than another.
+    same = {"LP_NUM_THREADS": "0", "MESA_SHADER_CACHE_DISABLE": "true", "PYTHONHASHSEED": "0"}
+    same["OPENBLAS_NUM_THREADS"] = "1"
+    done = subprocess.run(
+        command, cwd=ROOT, env={**os.environ, **same}, capture_output=True, text=True
+    )
+    said = [text for text in done.stderr.splitlines() if "Collected :" in text]
+    if done.returncode or not said:
+        raise WorkerError((done.stderr.splitlines() or ["valgrind wrote nothing"])[-1])
+    return int(said[-1].split(":")[-1])
+
+
+def instructions(work: str, few: int = 20, many: int = 520) -> tuple[float, float]:
+    """Instructions of one call, and the difference of two equal processes, shared among the calls."""
+    first, again, more = (_counted(work, calls) for calls in (few, few, many))
+    return (more - (first + again) / 2) / (many - few), abs(first - again) / (many - few)
 
 
 def _callgrind(console: Console) -> int:
     if shutil.which("valgrind") is None:
         console.print("expected valgrind on PATH, found none")
         return 1
+    failed = False
     for work, meaning in COUNTED.items():
-        console.print(f"{meaning}: {instructions(work):,.0f} instructions", highlight=False)
-    return 0
+        count, off = instructions(work)
+        if count <= 4 * off:  # what else the processes do is not the same: no figure
+            failed = True
+            console.print(f"{meaning}: no figure, equal processes differ by {off:,.0f} a call")
+            continue
+        console.print(f"{meaning}: {count:,.0f} instructions, within {off:,.0f}", highlight=False)
+    return int(failed)
 
 
 def _show(console: Console, points: list[Point]) -> None:
@@ -414,7 +451,7 @@ def main(arguments: list[str]) -> int:
     if options.page and options.only:
         parser.error("--page: expected all curves, got --only")
     points: list[Point] = []
-    notes: list[str] = []
+    notes = [f"{name}, which is not installed" for name in PEERS if name not in installed()]
     for curve in CURVES:
         if options.only and curve.name not in options.only:
             continue
