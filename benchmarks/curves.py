@@ -6,8 +6,9 @@
 
 Each curve changes one number of a field (`benchmarks/field.py`): teapots on a ground, captured from a place that is
 another one for each frame, so that all faces are drawn. At each point cubecam, programs in moderngl and ZenGL that
-cull by hand, and VTK draw the same frames; their arrays are compared first, and then they take turns. A last time is that of
-copying the result's bytes, which nothing can be below. Times are medians: CPU time of all threads, and by the clock.
+cull by hand, and VTK draw the same frames; their arrays are compared first, and then they take turns. A last time is
+that of copying the result's bytes, which nothing can be below. Times are medians: CPU time of all threads, and by the
+clock.
 
 `--history` gets a file for each run: commit, machine, driver and all points. `--page` writes the table and the lines
 into a document, between its marks, and the figure beside it. `--callgrind` counts instructions with valgrind.
@@ -250,7 +251,7 @@ def lines_markdown(points: list[Point]) -> str:
                 continue
             xs = [scale(curve.name, point.value) for point in known]
             a, b = line(xs, [point.cpu[name] for point in known])
-            cells.append(f"{_signed(a)} + {b:.3g}")
+            cells.append(f"{_signed(a)} {'-' if b < 0 else '+'} {abs(b):.3g}")
         if found:
             rows.append(f"| {curve.name} | {curve.fixed} | {' | '.join(cells)} | {curve.unit} |")
     return "\n".join(rows)
@@ -468,9 +469,7 @@ def main(arguments: list[str]) -> int:
         console.print(f"wrote {write_history(options.history, entry)}", highlight=False)
     if options.page:
         draw(points, options.picture)
-        where = ", ".join(
-            f"{key} {value}" for key, value in entry["machine"].items() if key != "load"
-        )
+        where = ", ".join(f"{key} {value}" for key, value in entry["machine"].items())
         measured = f"Measured with {entry['driver']}; {where}."
         missing = "".join(f"\n\nLeft out: {note}." for note in notes)
         text = f"{lines_markdown(points)}\n\n{points_markdown(points)}\n\n{measured}{missing}"
