@@ -41,7 +41,7 @@ from .processes import ROOT, CpuWorker, WorkerError
 
 #: What stands in a document before and after the tables.
 BEGIN, END = "<!-- benchmarks.curves -->", "<!-- end -->"
-PICTURE = ROOT / "docs" / "images" / "cost-curves.svg"
+PICTURE = ROOT / "docs" / "images" / "why-cost-curves.svg"
 OUTPUTS = ("distance", "normal", "position", "z")
 #: Programs that draw the same: in moderngl and ZenGL their objects are culled by hand, VTK has its own culler.
 PEERS = {
