@@ -162,9 +162,11 @@ class TestCurves:
         assert curves.line(xs, 2 + 0.5 * xs) == pytest.approx((2, 0.5))
 
     def test_relative_errors_count(self):
-        # One percent too much at the far end must not move the near end much.
-        a, _ = curves.line([1, 10, 1000], [2.5, 7, 506])
-        assert a == pytest.approx(2, abs=0.15)
+        # Errors of a tenth at the far end must not move the near end.
+        xs = np.array([1, 10, 100, 1000])
+        a, b = curves.line(xs, (2 + 0.5 * xs) * [1, 1, 0.9, 1.1])
+        assert a == pytest.approx(2, abs=0.1)
+        assert b == pytest.approx(0.5, abs=0.02)
 
     def test_each_curve_has_four_to_six_points(self):
         assert {curve.name for curve in curves.CURVES} >= {"triangles", "face size", "samples"}
