@@ -12,6 +12,7 @@ PYTEST = $(PY) -m pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder
 DOCKER ?= docker
 BENCH_ARGS ?=
 CONDA_ARGS ?=
+CURVES_ARGS ?=
 FUZZ_ARGS ?=
 GPU_ARGS ?=
 IMAGE_ARGS ?=
@@ -27,7 +28,7 @@ CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-fast test-build test-browser test-interop test-lowest dev lint format stubs bench gpu-check docs gallery notebooks sdist wheel wheels image conda release-check sanitize fuzz soak mutants clean
+.PHONY: help demo test test-fast test-build test-browser test-interop test-lowest dev lint format stubs bench curves gpu-check docs gallery notebooks sdist wheel wheels image conda release-check sanitize fuzz soak mutants clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -77,6 +78,9 @@ stubs: $(VENV)/.installed $(VENV)/.deps-dev ## write python/cubecam/_core.pyi ag
 
 bench: $(VENV)/.installed $(VENV)/.deps-bench ## compare with moderngl, ZenGL, py360convert and OpenCV, print ratios
 	@$(PY) -m benchmarks $(BENCH_ARGS)
+
+curves: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-bench $(VENV)/.deps-peers ## measure what a cubemap costs beside moderngl, ZenGL, VTK, add to out/curves, write docs/explanation/cost_curves.md
+	@$(PY) -m benchmarks.curves --history out/curves --page docs/explanation/cost_curves.md $(CURVES_ARGS)
 
 gpu-check: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-bench ## try the GPU: tests, benchmarks, readback, 1,000 probes, pictures, one JSON in out/gpu_check
 	@$(PY) scripts/gpu_check.py $(GPU_ARGS)

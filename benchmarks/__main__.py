@@ -11,7 +11,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from . import equirect, live, machine, marks, reflection, startup
+from . import batches, equirect, live, machine, marks, reflection, startup
 from .processes import ROOT
 from .reflections import marks as reflection_marks
 from .results import Section, print_sections
@@ -35,10 +35,11 @@ def _arguments() -> argparse.Namespace:
             "startup",
             "live",
             "reflections",
+            "batches",
             "marks",
             *marks.PARTS,
         ],
-        help="p14-teapot, p14-knot, equirect, startup, live, reflections, marks, or one of "
+        help="p14-teapot, p14-knot, equirect, startup, live, reflections, batches, marks, or one of "
         + ", ".join(marks.PARTS)
         + "; may be given several times",
     )
@@ -74,6 +75,7 @@ def main() -> int:
     workloads["startup"] = partial(startup.run, arguments.quick)
     workloads["live"] = partial(live.run, arguments.quick)
     workloads["reflections"] = partial(reflection_marks.run, arguments.quick)
+    workloads["batches"] = partial(batches.run, arguments.quick)
     for part in marks.PARTS:
         workloads[part] = partial(marks.run, part, quick=arguments.quick, old=arguments.before)
 

@@ -8,6 +8,8 @@ that it reads. The CPU time counts the rasteriser's threads; other work on the m
 
 A program has `draw(index)`, which gives a picture or None; where it has them, `prepare(index)` makes the frame's
 input before the clock starts, and `move(index)` is timed separately. If it has only `frame(index)`, that is called.
+"wall" is the time by the clock of moving and drawing. `arrays(index)` gives all arrays of a frame by their names, and
+a request "call" calls any other method.
 """
 
 from __future__ import annotations
@@ -30,9 +32,14 @@ class _Steps:
     """Those steps of a frame that a program has."""
 
     def __init__(self, program: Any) -> None:
-        self.prepare = getattr(program, "prepare", _nothing)
-        self.move = getattr(program, "move", _nothing) if hasattr(program, "draw") else _nothing
-        self.draw = program.draw if hasattr(program, "draw") else program.frame
+        self.program: Any = program
+        self.prepare: Any = getattr(program, "prepare", _nothing)
+        self.move: Any = (
+            getattr(program, "move", _nothing) if hasattr(program, "draw") else _nothing
+        )
+        self.draw: Any = (
+            program.draw if hasattr(program, "draw") else getattr(program, "frame", None)
+        )
 
     def picture(self, index: int) -> np.ndarray:
         self.prepare(index)
@@ -40,14 +47,15 @@ class _Steps:
         pixels: np.ndarray = self.draw(index)
         return pixels
 
-    def time(self, index: int) -> tuple[float, float]:
-        """CPU milliseconds of moving, and of drawing, which includes reading the picture."""
+    def time(self, index: int) -> tuple[float, float, float]:
+        """CPU milliseconds of moving, and of drawing, which includes reading the picture; milliseconds of both."""
         self.prepare(index)
-        start = time.process_time()
+        begin, start = time.perf_counter(), time.process_time()
         self.move(index)
         moved = time.process_time()
         self.draw(index)
-        return (moved - start) * 1e3, (time.process_time() - moved) * 1e3
+        end, now = time.process_time(), time.perf_counter()
+        return (moved - start) * 1e3, (end - moved) * 1e3, (now - begin) * 1e3
 
 
 def _load(tree: str, name: str, options: dict[str, Any]) -> _Steps:
@@ -71,8 +79,13 @@ def _answer(steps: _Steps, request: dict[str, Any]) -> dict[str, Any]:
         picture = np.ascontiguousarray(steps.picture(request["frame"])[..., :3])
         np.save(request["path"], picture)
         return {}
+    if request["do"] == "arrays":
+        np.savez(request["path"], **steps.program.arrays(request["frame"]))
+        return {}
+    if request["do"] == "call":
+        return {"result": getattr(steps.program, request["name"])(**request["options"])}
     times = [steps.time(request["first"] + offset) for offset in range(request["count"])]
-    return {"move": [move for move, _ in times], "draw": [draw for _, draw in times]}
+    return {name: [t[at] for t in times] for at, name in enumerate(("move", "draw", "wall"))}
 
 
 def main() -> None:

@@ -37,7 +37,7 @@ def describe() -> dict[str, str | int]:
         "gl": _gl(),
         "python": platform.python_version(),
     }
-    for package in ("cubecam", "numpy", "moderngl", "zengl", "py360convert"):
+    for package in ("cubecam", "numpy", "moderngl", "zengl", "vtk", "py360convert"):
         try:
             found[package] = metadata.version(package)
         except metadata.PackageNotFoundError:

@@ -65,13 +65,13 @@ std::vector<CapturePlace> to_places(py::handle positions, py::handle rotations) 
     return places;
 }
 
-std::unique_ptr<CaptureBatch>
+std::shared_ptr<CaptureBatch>
 make_batch(const std::shared_ptr<Renderer>& renderer, const Scene& scene,
            const ArrayLike& positions, const OrNone<ArrayLike>& rotations, const WholeNumber& size,
            Real near, Real far, const Nodes& exclude, const OutputNames& outputs,
            const FormatOrNone& format, const WholeNumber& samples, const OrNone<ArrayLike>& eye,
            const DepthFormatName& depth_format, const Choice<depth_order_names>& depth_order) {
-    auto made = std::make_unique<CaptureBatch>();
+    auto made = std::make_shared<CaptureBatch>();
     made->renderer = renderer;
     made->places = to_places(positions, rotations);
     made->options = capture_options(scene, {size, near, far, exclude, outputs, format, samples, eye,
@@ -93,6 +93,25 @@ std::byte* memory_of(const py::array& array, const char* name, const py::dtype& 
                               "batch's shape and dtype, got " + shape_text(array));
     }
     return static_cast<std::byte*>(const_cast<void*>(array.data()));
+}
+
+/// Arrays of undefined numbers for so many captures: the faces, then the outputs. Their memory is
+/// that of earlier results of the renderer, if these are no longer used.
+py::tuple allocate(const CaptureBatch& batch, Int count) {
+    const auto cubes = static_cast<std::size_t>(*count);
+    const auto n = static_cast<std::size_t>(batch.options.size);
+    const auto make = [&](std::size_t texel, const py::dtype& dtype, int channels) {
+        std::vector<py::ssize_t> shape{*count, face_count, batch.options.size, batch.options.size};
+        if (channels > 1) shape.push_back(channels);
+        return owned_pixels(batch.renderer->result_memory(cubes * face_count * n * n * texel), dtype,
+                            std::move(shape));
+    };
+    const Format format = batch.options.format;
+    py::list outputs;
+    for (const OutputKind& kind : batch.shape.outputs) {
+        outputs.append(make(kind.bytes(), numpy_dtype(kind.type), kind.channels));
+    }
+    return py::make_tuple(make(color_bytes(format), numpy_dtype(dtype_of(format)), 4), outputs);
 }
 
 /// Draws the captures from number `first` on, as many as the arrays have room for.
@@ -131,14 +150,14 @@ struct RenderBatch {
     std::vector<std::variant<CameraValue, StereoValue>> cameras;
 };
 
-std::unique_ptr<RenderBatch>
+std::shared_ptr<RenderBatch>
 make_renders(const std::shared_ptr<Renderer>& renderer, const Scene& scene, const CameraList& cameras,
              const SizeLike& size, const OutputNames& outputs, const FormatOrNone& format,
              const WholeNumber& samples, Real exposure,
              const std::optional<Choice<tonemap_names>>& tonemap,
              const std::optional<Choice<encode_names>>& encode, const EffectsLike& effects,
              const DepthFormatName& depth_format, Flag screen_reflections) {
-    auto made = std::make_unique<RenderBatch>();
+    auto made = std::make_shared<RenderBatch>();
     made->renderer = renderer;
     made->options = frame_options({size, outputs, format, samples, exposure, tonemap, encode,
                                    depth_format, screen_reflections});
@@ -167,8 +186,8 @@ PyFrame render(RenderBatch& batch, std::size_t number) {
 void bind_batches(pybind11::module_& module) {
     using namespace cubecam;
     using namespace cubecam::bindings;
-    auto batch = py::class_<CaptureBatch>(module, "_CaptureBatch",
-                                          "A scene at one moment, and the places of its captures.");
+    auto batch = declare<CaptureBatch>(module, "_CaptureBatch",
+                                       "A scene at one moment, and the places of its captures.");
     batch
         .def(py::init(&make_batch), py::arg("renderer"), py::arg("scene"), py::arg("positions"),
              py::arg("rotations"), py::arg("size"), py::kw_only(), py::arg("near"), py::arg("far"),
@@ -195,8 +214,9 @@ void bind_batches(pybind11::module_& module) {
                                    }
                                    return list;
                                })
+        .def("allocate", &allocate, py::arg("count"))
         .def("draw", &draw, py::arg("first"), py::arg("faces"), py::arg("outputs"));
-    py::class_<RenderBatch>(module, "_RenderBatch", "A scene at one moment, and cameras.")
+    declare<RenderBatch>(module, "_RenderBatch", "A scene at one moment, and cameras.")
         .def(py::init(&make_renders), py::arg("renderer"), py::arg("scene"), py::arg("cameras"),
              py::arg("size"), py::kw_only(), py::arg("outputs"), py::arg("format"),
              py::arg("samples"), py::arg("exposure"), py::arg("tonemap"), py::arg("encode"),

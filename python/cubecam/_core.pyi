@@ -10009,7 +10009,7 @@ class _CaptureBatch:
     """
 
     def __init__(
-        self,
+        self: _CaptureBatch,
         renderer: Renderer,
         scene: Scene,
         positions: np.typing.ArrayLike,
@@ -10026,10 +10026,11 @@ class _CaptureBatch:
         depth_format: DepthFormat | None,
         depth_order: DepthOrder,
     ) -> None: ...
-    def __len__(self) -> int: ...
+    def __len__(self: _CaptureBatch) -> int: ...
     def __reduce__(self) -> tuple[object, ...]: ...
+    def allocate(self: _CaptureBatch, count: typing.SupportsIndex) -> tuple[object, ...]: ...
     def draw(
-        self,
+        self: _CaptureBatch,
         first: typing.SupportsInt | typing.SupportsIndex,
         faces: np.typing.NDArray[np.uint8 | np.float16 | np.float32],
         outputs: list[np.typing.NDArray[np.float32 | np.int32 | np.uint8]],
@@ -10051,7 +10052,7 @@ class _RenderBatch:
     """
 
     def __init__(
-        self,
+        self: _RenderBatch,
         renderer: Renderer,
         scene: Scene,
         cameras: collections.abc.Iterable[Camera | StereoCamera],
@@ -10067,9 +10068,9 @@ class _RenderBatch:
         depth_format: DepthFormat | None,
         screen_reflections: bool,
     ) -> None: ...
-    def __len__(self) -> int: ...
+    def __len__(self: _RenderBatch) -> int: ...
     def __reduce__(self) -> tuple[object, ...]: ...
-    def draw(self, number: typing.SupportsInt | typing.SupportsIndex) -> Frame: ...
+    def draw(self: _RenderBatch, number: typing.SupportsInt | typing.SupportsIndex) -> Frame: ...
 
 def _at_interrupt_check(function: object) -> None:
     """

@@ -543,6 +543,10 @@ Renderer::BatchShape Renderer::batch_shape(const SceneSnapshot& scene,
     });
 }
 
+std::shared_ptr<PixelBuffer> Renderer::result_memory(std::size_t bytes) {
+    return run([&](RendererState& gpu) { return gpu.results->take(bytes); });
+}
+
 void Renderer::capture_batch(const SceneSnapshot& scene, const CaptureOptions& options,
                              std::span<const CapturePlace> places, const ClearTexels& clear,
                              const LayerMemory& to) {

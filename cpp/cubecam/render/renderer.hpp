@@ -118,6 +118,9 @@ public:
     /// Checks the options of a batch. @throws std::invalid_argument as capture() does.
     BatchShape batch_shape(const SceneSnapshot& scene, const CaptureOptions& options);
 
+    /// Memory with undefined contents for a result: that of an earlier one, if it was given back.
+    std::shared_ptr<PixelBuffer> result_memory(std::size_t bytes);
+
     /// Draws captures from several places, and writes them into `to` one after the other. Each is
     /// the same bit for bit as capture() from there: the scene is drawn for one place after the
     /// other, but the driver is waited for once. Its stats are sums.

@@ -7,7 +7,7 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Output", "OutputArrays", "allocate"]
+__all__ = ["Output", "OutputArrays"]
 
 #: Numbers of an output.
 OutputArrays = dict[str, npt.NDArray[np.float32 | np.int32 | np.uint8]]
@@ -29,23 +29,3 @@ class Output:
 
     def __get__(self, batch: _HasOutputs | None, owner: type | None = None) -> Any:
         return self if batch is None else batch.outputs.get(self._name)
-
-
-def allocate(
-    count: int, shape: tuple[int, ...], kinds: list[tuple[str, int, np.dtype[Any]]]
-) -> OutputArrays:
-    """Make an array of undefined numbers for each output.
-
-    Parameters
-    ----------
-    count : int
-        The length of the batch.
-    shape : tuple of int
-        Of one picture.
-    kinds : list of (str, int, dtype)
-        Name, channels and type of each output.
-    """
-    return {
-        name: np.empty((count, *shape, *((channels,) if channels > 1 else ())), dtype)
-        for name, channels, dtype in kinds
-    }

@@ -13,7 +13,6 @@ from .._checks import check_room, text_of, whole_number
 from .._core import CubeMap, Node, Renderer, Scene, _CaptureBatch, _to_array
 from .._progress import bar
 from ..typing import DepthFormat, DepthOrder, Format
-from ._outputs import OutputArrays, allocate
 from .cubemaps import CubeMapBatch
 
 __all__ = ["capture_many", "capture_scenes", "iter_captures"]
@@ -345,6 +344,8 @@ def _room_for(batch: _CaptureBatch, count: int) -> CubeMapBatch:
     for _, channels, dtype in batch.outputs:
         bytes_of_one += 6 * n * n * channels * dtype.itemsize
     check_room(count * bytes_of_one, f"{count} captures of {n} pixels", "positions")
-    faces = np.empty((count, 6, n, n, 4), batch.dtype)
-    outputs: OutputArrays = allocate(count, (6, n, n), batch.outputs)
-    return CubeMapBatch(faces, outputs=outputs, encoding=batch.encoding)
+    faces, outputs = batch.allocate(count)
+    names = [name for name, _, _ in batch.outputs]
+    return CubeMapBatch(
+        faces, outputs=dict(zip(names, outputs, strict=True)), encoding=batch.encoding
+    )
