@@ -28,6 +28,7 @@ namespace cubecam::bindings {
 namespace {
 
 using OutputKinds = Shown<"list[tuple[str, int, numpy.dtype[numpy.generic]]]">;
+using ArraysOfBatch = py::typing::Tuple<Pixels, py::typing::List<OutputArray>>;
 using CameraList = OneOf<py::typing::Iterable<SeenBy>>;
 
 /// A scene at one moment, the places of its captures, and the renderer that draws them.
@@ -77,8 +78,7 @@ make_batch(const std::shared_ptr<Renderer>& renderer, const Scene& scene,
     made->options = capture_options(scene, {size, near, far, exclude, outputs, format, samples, eye,
                                             depth_format, depth_order});
     made->scene = snapshot_of(scene);
-    made->shape =
-        with_notices([&] { return renderer->batch_shape(*made->scene, made->options); });
+    made->shape = with_notices([&] { return renderer->batch_shape(*made->scene, made->options); });
     return made;
 }
 
@@ -89,22 +89,24 @@ std::byte* memory_of(const py::array& array, const char* name, const py::dtype& 
                       std::equal(cube.begin(), cube.end(), array.shape() + 1);
     if (!fits || !array.dtype().is(dtype) || !array.writeable() ||
         (array.flags() & py::array::c_style) == 0) {
-        throw py::value_error(std::string(name) + ": expected a writable C-contiguous array of the "
-                              "batch's shape and dtype, got " + shape_text(array));
+        throw py::value_error(std::string(name) +
+                              ": expected a writable C-contiguous array of the "
+                              "batch's shape and dtype, got " +
+                              shape_text(array));
     }
     return static_cast<std::byte*>(const_cast<void*>(array.data()));
 }
 
 /// Arrays of undefined numbers for so many captures: the faces, then the outputs. Their memory is
 /// that of earlier results of the renderer, if these are no longer used.
-py::tuple allocate(const CaptureBatch& batch, Int count) {
+ArraysOfBatch allocate(const CaptureBatch& batch, Int count) {
     const auto cubes = static_cast<std::size_t>(*count);
     const auto n = static_cast<std::size_t>(batch.options.size);
     const auto make = [&](std::size_t texel, const py::dtype& dtype, int channels) {
         std::vector<py::ssize_t> shape{*count, face_count, batch.options.size, batch.options.size};
         if (channels > 1) shape.push_back(channels);
-        return owned_pixels(batch.renderer->result_memory(cubes * face_count * n * n * texel), dtype,
-                            std::move(shape));
+        return owned_pixels(batch.renderer->result_memory(cubes * face_count * n * n * texel),
+                            dtype, std::move(shape));
     };
     const Format format = batch.options.format;
     py::list outputs;
@@ -151,9 +153,9 @@ struct RenderBatch {
 };
 
 std::shared_ptr<RenderBatch>
-make_renders(const std::shared_ptr<Renderer>& renderer, const Scene& scene, const CameraList& cameras,
-             const SizeLike& size, const OutputNames& outputs, const FormatOrNone& format,
-             const WholeNumber& samples, Real exposure,
+make_renders(const std::shared_ptr<Renderer>& renderer, const Scene& scene,
+             const CameraList& cameras, const SizeLike& size, const OutputNames& outputs,
+             const FormatOrNone& format, const WholeNumber& samples, Real exposure,
              const std::optional<Choice<tonemap_names>>& tonemap,
              const std::optional<Choice<encode_names>>& encode, const EffectsLike& effects,
              const DepthFormatName& depth_format, Flag screen_reflections) {
@@ -196,24 +198,23 @@ void bind_batches(pybind11::module_& module) {
         .def("__len__", [](const CaptureBatch& self) { return self.places.size(); })
         .def_property_readonly("most_cubes",
                                [](const CaptureBatch& self) { return self.shape.most_cubes; })
-        .def_property_readonly("encoding",
-                               [](const CaptureBatch& self) -> EncodingNow {
-                                   return to_string(self.shape.encoding);
-                               })
+        .def_property_readonly(
+            "encoding",
+            [](const CaptureBatch& self) -> EncodingNow { return to_string(self.shape.encoding); })
         .def_property_readonly("size", [](const CaptureBatch& self) { return self.options.size; })
         .def_property_readonly("dtype",
                                [](const CaptureBatch& self) -> PixelDType {
                                    return numpy_dtype(dtype_of(self.options.format));
                                })
-        .def_property_readonly("outputs",
-                               [](const CaptureBatch& self) -> OutputKinds {
-                                   py::list list;
-                                   for (const OutputKind& kind : self.shape.outputs) {
-                                       list.append(py::make_tuple(kind.name, kind.channels,
-                                                                  numpy_dtype(kind.type)));
-                                   }
-                                   return list;
-                               })
+        .def_property_readonly(
+            "outputs",
+            [](const CaptureBatch& self) -> OutputKinds {
+                py::list list;
+                for (const OutputKind& kind : self.shape.outputs) {
+                    list.append(py::make_tuple(kind.name, kind.channels, numpy_dtype(kind.type)));
+                }
+                return list;
+            })
         .def("allocate", &allocate, py::arg("count"))
         .def("draw", &draw, py::arg("first"), py::arg("faces"), py::arg("outputs"));
     declare<RenderBatch>(module, "_RenderBatch", "A scene at one moment, and cameras.")

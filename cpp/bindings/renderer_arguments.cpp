@@ -63,8 +63,7 @@ std::variant<CameraValue, StereoValue> to_camera(const SeenBy& camera) {
     if (py::isinstance<StereoCamera>(camera)) {
         return camera.cast<std::shared_ptr<StereoCamera>>()->value();
     }
-    return to_shared<Camera>(camera, "camera", "a Camera or a StereoCamera")
-        ->world_value();
+    return to_shared<Camera>(camera, "camera", "a Camera or a StereoCamera")->world_value();
 }
 
 FrameOptions frame_options(const FrameArguments& given) {

@@ -346,7 +346,7 @@ def test_what_drawing_finds_is_raised_by_the_future(renderer, buffers):
     bad.add(cc.Mesh.box(1), cc.ShaderMaterial("vec3 shade(Surface s) { return nothing; }"))
     with pytest.raises(cc.ShaderError) as now:
         renderer.capture(bad, size=2)
-    order = []
+    order: list[cc.PictureFuture] = []
     with occupied(renderer):
         futures = [renderer.capture_async(scene, size=2) for scene in (good, bad, good, bad)]
         for future in futures:

@@ -198,8 +198,8 @@ void DrawnPicture::draw_shared(Target& target, std::size_t first_layer,
 }
 
 void DrawnPicture::draw_damaged(Target& target, const std::vector<std::vector<Rect>>& damaged,
-                                const std::vector<NodeTextures>& lookups,
-                                std::size_t first_layer, bool shared) {
+                                const std::vector<NodeTextures>& lookups, std::size_t first_layer,
+                                bool shared) {
     const Rect whole{0, 0, target.description().width, target.description().height};
     stats.views_drawn += std::count_if(damaged.begin(), damaged.end(),
                                        [](const auto& rects) { return !rects.empty(); });

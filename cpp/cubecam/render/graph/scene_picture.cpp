@@ -146,16 +146,14 @@ auto ScenePicture::with_picture(const PostProcess& post_process, const Draw& dra
 
 std::size_t ScenePicture::draw_changed(Target& target, const PostProcess& post_process,
                                        std::optional<Budget> budget) {
-    return with_picture(post_process, [&](DrawnPicture& picture) {
-        return picture.draw_changed(target, budget);
-    });
+    return with_picture(
+        post_process, [&](DrawnPicture& picture) { return picture.draw_changed(target, budget); });
 }
 
 void ScenePicture::draw_shared(Target& target, std::size_t first_layer,
                                const std::vector<bool>& drawn) {
-    with_picture({}, [&](DrawnPicture& picture) {
-        picture.draw_shared(target, first_layer, drawn);
-    });
+    with_picture({},
+                 [&](DrawnPicture& picture) { picture.draw_shared(target, first_layer, drawn); });
 }
 
 bool ScenePicture::draw_kept(std::unique_ptr<Target>& target, const std::function<void()>& forget) {

@@ -206,9 +206,8 @@ void SurfaceCallBuilder::add_sky(std::size_t first_region, std::size_t count, Su
     for (std::size_t r = first_region; r < first_region + count; ++r) {
         const Region& region = input_.regions[r];
         const View& view = input_.views[region.view];
-        view_records_.push_back(
-            make_view_record(view, sky_rays(view, size_.x, size_.y), input_.origin(),
-                             input_.layer(region)));
+        view_records_.push_back(make_view_record(view, sky_rays(view, size_.x, size_.y),
+                                                 input_.origin(), input_.layer(region)));
     }
 }
 

@@ -146,8 +146,8 @@ void SurfacePass::draw_layers(const SurfaceInput& input, std::span<const Surface
         }
     }
     const bool cleared = by_texture || input.shared_target;
-    // llvmpipe keeps the triangles of a framebuffer until it is left: those of one layer stay in the
-    // caches, those of a batch do not (docs/adr/0035).
+    // llvmpipe keeps the triangles of a framebuffer until it is left: those of one layer stay in
+    // the caches, those of a batch do not (docs/adr/0035).
     const bool routed = input.shared_target && layering_ != Layering::never &&
                         (layering_ == Layering::always || !context_->software());
     const auto bind = [&](const Region& region) {
