@@ -40,6 +40,7 @@ _PRIVATE_TYPES = {
     "Array": "NDArray[float64]",
     "Floats": "NDArray[float32 | float64]",
     "Mode": "Literal['reflection', 'refraction']",
+    "OutputArrays": "dict[str, NDArray]",
     "Part": "int | str",
     "Picture": "Frame | CubeMap | Image",
     "Source": "PathLike | Sequence[PathLike]",
