@@ -48,11 +48,15 @@ nitpick_ignore_regex = [
         r"py:.*",
         r"(ArrayLike|NDArray|DTypeLike|PathLike|Path|Iterable|Iterator|Sequence|Mapping|Callable|Unpack)",
     ),
-    (r"py:.*", r"(float16|float32|float64|int32|int64|uint8|uint16|uint32|integer|generic|bool_|dtype)"),
+    (
+        r"py:.*",
+        r"(float16|float32|float64|int32|int64|uint8|uint16|uint32|integer|generic|bool_|dtype)",
+    ),
     # What some properties of live views give; they are made by cubecam alone.
     (r"py:.*", r"(Cross|Facts|Look|Panorama|Plane|Section)"),
     (r"py:.*", r"(Axes|Figure|Normalize|Colormap|Console|Self|AnyLight|AnyCamera|MutableMapping)"),
     (r"py:.*", r"(xarray\.Dataset|Dataset)"),
+    (r"py:.*", r"T"),  # what a PictureFuture gives
 ]
 
 cubecam_repository = files_url()
