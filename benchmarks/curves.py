@@ -1,4 +1,4 @@
-"""What a cubemap costs, as a function of what is in the scene and of what is asked for.
+"""How the cost of a cubemap depends on the scene and on the arguments of the capture.
 
     python -m benchmarks.curves                                    all curves, in three minutes
     python -m benchmarks.curves --only lights --only samples

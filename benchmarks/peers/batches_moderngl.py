@@ -16,23 +16,7 @@ import numpy as np
 
 from .. import field, scene
 from .egl import LIBRARIES
-from .moderngl_frame import matrix_bytes
-
-VERTEX = """
-#version 330 core
-uniform mat4 view_projection;
-uniform mat4 model;
-in vec3 in_position;
-in vec3 in_normal;
-out vec3 v_position;
-out vec3 v_normal;
-void main() {
-    vec4 world = model * vec4(in_position, 1.0);
-    v_position = world.xyz;
-    v_normal = mat3(model) * in_normal;
-    gl_Position = view_projection * world;
-}
-"""
+from .moderngl_frame import ONE_NODE, matrix_bytes
 
 FRAGMENT = """
 #version 330 core
@@ -95,7 +79,7 @@ class Culled:
         self.ctx = ctx = moderngl.create_context(context=backend)
         ctx.enable(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self.program = program = ctx.program(
-            vertex_shader=VERTEX.lstrip(),
+            vertex_shader=ONE_NODE.lstrip(),
             fragment_shader=declared(FRAGMENT, plan).lstrip(),
         )
         program["weights"].value = (field.KA, field.KD, field.KS, field.SHININESS)

@@ -9,9 +9,9 @@ import numpy as np
 import zengl
 
 from .. import field, scene
-from .batches_moderngl import FRAGMENT, OUTPUTS, VERTEX, declared, model_matrix
+from .batches_moderngl import FRAGMENT, OUTPUTS, declared, model_matrix
 from .egl import LIBRARIES
-from .moderngl_frame import matrix_bytes
+from .moderngl_frame import ONE_NODE, matrix_bytes
 
 VIEW = """
 layout (std140) uniform View { mat4 view_projection; vec4 eye_place; vec4 face_way; };
@@ -66,7 +66,7 @@ class Culled:
     def _pipeline(self, buffers: Any, model: np.ndarray, color: Any) -> zengl.Pipeline:
         vertices, indices, count = buffers
         plan = self.plan
-        vertex = VERTEX.replace("uniform mat4 view_projection;\n", VIEW).lstrip()
+        vertex = ONE_NODE.replace("uniform mat4 view_projection;\n", VIEW).lstrip()
         weights = ", ".join(map(str, (field.KA, field.KD, field.KS, field.SHININESS)))
         fragment = declared(FRAGMENT, plan).replace("uniform vec3 eye;\n", VIEW)
         fragment = fragment.replace("uniform vec3 forward;\n", "")

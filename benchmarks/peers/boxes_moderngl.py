@@ -6,7 +6,7 @@ import moderngl
 import numpy as np
 
 from .. import boxes, scene
-from .moderngl_frame import PHONG, PHONG_UNIFORMS, Frame, matrix_bytes, set_uniforms
+from .moderngl_frame import ONE_NODE, PHONG, PHONG_UNIFORMS, Frame, matrix_bytes, set_uniforms
 
 INSTANCED = """
 #version 330 core
@@ -26,22 +26,6 @@ void main() {{
     v_color = palette[in_material];
     gl_Position = view_projection * world;
 }}
-"""
-
-ONE = """
-#version 330 core
-uniform mat4 view_projection;
-uniform mat4 model;
-in vec3 in_position;
-in vec3 in_normal;
-out vec3 v_position;
-out vec3 v_normal;
-void main() {
-    vec4 world = model * vec4(in_position, 1.0);
-    v_position = world.xyz;
-    v_normal = mat3(model) * in_normal;
-    gl_Position = view_projection * world;
-}
 """
 
 FRAGMENT = """
@@ -124,7 +108,7 @@ class Loop(_Boxes):
 
     def __init__(self, count: int, colors: int, lit: bool = True) -> None:
         super().__init__(count, colors)
-        program = self._program(ONE, _fragment(BY_UNIFORM, lit))
+        program = self._program(ONE_NODE, _fragment(BY_UNIFORM, lit))
         content = (self.vertices, "3f 3f" if lit else "3f 12x", "in_position", "in_normal")
         self.array = self.frame.ctx.vertex_array(
             program, [content[: 4 if lit else 3]], self.triangles, index_element_size=2

@@ -8,6 +8,23 @@ import numpy as np
 
 from .egl import LIBRARIES
 
+# One node a draw call.
+ONE_NODE = """
+#version 330 core
+uniform mat4 view_projection;
+uniform mat4 model;
+in vec3 in_position;
+in vec3 in_normal;
+out vec3 v_position;
+out vec3 v_normal;
+void main() {
+    vec4 world = model * vec4(in_position, 1.0);
+    v_position = world.xyz;
+    v_normal = mat3(model) * in_normal;
+    gl_Position = view_projection * world;
+}
+"""
+
 # Phong's model as cubecam's PhongMaterial has it, for one point light without decay.
 PHONG = """
 vec3 phong(vec3 color, vec3 position, vec3 normal) {

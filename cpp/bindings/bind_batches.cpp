@@ -1,5 +1,6 @@
 // cubecam._core._CaptureBatch and _RenderBatch: what python/cubecam/batches draws with.
 #include "arrays.hpp"
+#include "asynchronous.hpp"
 #include "effect_list.hpp"
 #include "encodings.hpp"
 #include "frame.hpp"
@@ -171,14 +172,8 @@ make_renders(const std::shared_ptr<Renderer>& renderer, const Scene& scene,
 }
 
 PyFrame render(RenderBatch& batch, std::size_t number) {
-    const auto& camera = batch.cameras.at(number);
-    return PyFrame(with_notices([&] {
-        return std::visit(
-            [&](const auto& value) {
-                return batch.renderer->render(*batch.scene, value, batch.options);
-            },
-            camera);
-    }));
+    return draw_now(*batch.renderer,
+                    FrameRequest{batch.scene, batch.cameras.at(number), batch.options});
 }
 
 }  // namespace

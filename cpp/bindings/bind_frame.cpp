@@ -12,6 +12,7 @@
 
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 namespace cubecam {
@@ -136,15 +137,17 @@ void bind_frame(py::module_& m) {
             return py::make_tuple(restore, py::make_tuple(bindings::closed_state(state_of(frame))));
         });
     m.def(
-        "_shaded_outputs",
+        "_output_table",
         [] {
-            std::vector<std::string_view> names;
+            std::vector<std::tuple<std::string_view, bool, int, std::string_view, std::string_view>>
+                rows;
             for (const OutputRow& row : output_table) {
-                if (row.source == OutputSource::shader) names.push_back(row.name);
+                rows.emplace_back(row.name, row.source == OutputSource::shader, row.channels,
+                                  output_type_name(row.type), row.meaning);
             }
-            return names;
+            return rows;
         },
-        "Names of the outputs that shaders write, for the command line.");
+        "Of each output: its name, whether shaders write it, channels, dtype, and meaning.");
     m.def("_restore_frame", &from_state, py::arg("state"), "For unpickling.");
 }
 

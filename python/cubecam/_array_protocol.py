@@ -41,7 +41,13 @@ def as_array(
     ValueError
         For a frame without a colour, or a copy that is not allowed.
     """
-    values = numbers_of(self)[0]
+    return array_of(numbers_of(self)[0], dtype, copy)
+
+
+def array_of(
+    values: npt.NDArray[Any], dtype: npt.DTypeLike | None, copy: bool | None
+) -> npt.NDArray[Any]:
+    """Give numbers to ``numpy.asarray``; see `as_array`."""
     if copy:
         return np.array(values, dtype=dtype)
     if copy is False and dtype is not None and np.dtype(dtype) != values.dtype:

@@ -10147,6 +10147,11 @@ def _newest_revision() -> int:
     The newest revision of this process. While it stays the same, no object has changed.
     """
 
+def _output_table() -> list[tuple[str, bool, int, str, str]]:
+    """
+    Of each output: its name, whether shaders write it, channels, dtype, and meaning.
+    """
+
 def _project(
     cube: CubeMap,
     kind: str,
@@ -10180,11 +10185,6 @@ def _read_through_buffers(always: bool) -> bool:
 def _restore_frame(state: tuple[object, ...]) -> Frame:
     """
     For unpickling.
-    """
-
-def _shaded_outputs() -> list[str]:
-    """
-    Names of the outputs that shaders write, for the command line.
     """
 
 def _text_of(value: object) -> str:

@@ -46,7 +46,6 @@ PYTHON_ORDER = (
     "_late",
     "_warnings",
     "_progress",  # a bar in the terminal
-    "batches",  # many captures and frames in one call
     "_futures",  # calls of a renderer that are drawn later
     "data",  # the packaged files and their list
     "_nodes",  # which nodes are shown
@@ -56,6 +55,7 @@ PYTHON_ORDER = (
     "io",
     "pictures",
     "_array_protocol",
+    "batches",  # many captures and frames in one call
     "plot",
     "navigation",
     "optics",

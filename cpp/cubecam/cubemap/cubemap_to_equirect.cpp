@@ -238,16 +238,10 @@ public:
         : plan_(plan), filling_(filling), from_(from), to_(to), panoramas_(panoramas) {}
 
     void run() {
-        const std::size_t tiles = plan_.tiles();
-        const std::size_t parts = batch_parts(from_.count, tiles);
-        parallel_for_with<Scratch>(0, tiles * parts, 1,
-                                   [&](std::size_t begin, std::size_t end, Scratch& scratch) {
-                                       for (std::size_t i = begin; i < end; ++i) {
-                                           const std::size_t part = i % parts;
-                                           fill_tile(i / parts, part, part * from_.count / parts,
-                                                     (part + 1) * from_.count / parts, scratch);
-                                       }
-                                   });
+        for_each_tile<Scratch>(
+            from_.count, plan_.tiles(),
+            [this](std::size_t tile, std::size_t part, std::size_t first, std::size_t last,
+                   Scratch& scratch) { fill_tile(tile, part, first, last, scratch); });
     }
 
 private:

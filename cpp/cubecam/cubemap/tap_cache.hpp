@@ -93,6 +93,22 @@ inline std::size_t batch_parts(std::size_t pictures, std::size_t tiles) {
     return std::min(pictures, std::max((pieces + tiles - 1) / tiles, (pictures + most - 1) / most));
 }
 
+/// Calls fill(tile, part, first, last, scratch) on all cores for each tile and each part of the
+/// pictures; a part has the pictures from `first` up to `last`, which is excluded. The tiles of one
+/// thread reuse a Scratch.
+template <typename Scratch, typename Fill>
+void for_each_tile(std::size_t pictures, std::size_t tiles, const Fill& fill) {
+    const std::size_t parts = batch_parts(pictures, tiles);
+    parallel_for_with<Scratch>(0, tiles * parts, 1,
+                               [&](std::size_t begin, std::size_t end, Scratch& scratch) {
+                                   for (std::size_t i = begin; i < end; ++i) {
+                                       const std::size_t part = i % parts;
+                                       fill(i / parts, part, part * pictures / parts,
+                                            (part + 1) * pictures / parts, scratch);
+                                   }
+                               });
+}
+
 /// Returns the plan for a key: one that is kept, or what `make()` returns. The second time, its
 /// taps are to be kept: `fresh` is true then, and the caller gives the filled plan to the cache.
 template <typename Plan, typename Make>

@@ -19,16 +19,7 @@ std::size_t check_views(const RendererInfo& info, const SceneSnapshot& scene,
                         std::span<const CameraValue> cameras, const FrameOptions& options) {
     check_buffers(options);
     check_effects(scene, options);
-    const int count = static_cast<int>(cameras.size());
-    const std::size_t bytes =
-        check_request(info, {.shape = count == 1 ? TargetShape::flat() : TargetShape::array(count),
-                             .width = options.width,
-                             .height = options.height,
-                             .samples = options.samples,
-                             .format = options.format,
-                             .outputs = resolve_outputs(options.outputs, scene),
-                             .depth_format = options.depth_format,
-                             .color = options.color});
+    const std::size_t bytes = check_request(info, frame_request(scene, options, cameras.size()));
     const double aspect = static_cast<double>(options.width) / static_cast<double>(options.height);
     for (const CameraValue& camera : cameras) (void)matrices(camera, aspect);
     return bytes;
@@ -56,14 +47,7 @@ std::size_t check_call(const RendererInfo& info, const SceneSnapshot& scene,
                        const CaptureOptions& options) {
     check(options);
     check_buffers(options);
-    return check_request(info, {.shape = TargetShape::cube(),
-                                .width = options.size,
-                                .height = options.size,
-                                .samples = options.samples,
-                                .format = options.format,
-                                .outputs = resolve_outputs(options.outputs, scene),
-                                .depth_format = options.depth_format,
-                                .depth_order = options.depth_order});
+    return check_request(info, capture_request(scene, options, TargetShape::cube()));
 }
 
 }  // namespace cubecam

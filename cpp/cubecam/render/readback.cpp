@@ -393,21 +393,17 @@ Reading<std::shared_ptr<CubeMap>> start_cube(const gl::Context& context, Target&
 
 ClearTexels read_texels(const gl::Context& context, Target& target, ResultPool& pool,
                         ReadRing& ring) {
-    OutputList outputs;
-    Result color;
-    const std::unique_ptr<PixelsUnderWay> pixels =
-        start_all(context, target, pool, ring, color, outputs, "reading a texel");
-    if (pixels != nullptr) pixels->arrive();
+    const auto cube = start_cube(context, target, pool, ring, Encoding::linear).finished();
     const TargetDescription& d = target.description();
     const auto first = [](const PixelBuffer& values, std::size_t bytes) {
         return std::vector<std::byte>(values.begin(),
                                       values.begin() + static_cast<std::ptrdiff_t>(bytes));
     };
     ClearTexels texels;
-    if (color != nullptr) texels.color = first(*color, color_bytes(d.format));
+    texels.color = first(*cube->data()->pixels, color_bytes(d.format));
     const std::vector<OutputKind> kinds = output_kinds(d.outputs);
     for (std::size_t i = 0; i < kinds.size(); ++i) {
-        texels.outputs.push_back(first(*outputs[i].values, kinds[i].bytes()));
+        texels.outputs.push_back(first(*cube->outputs()[i].values, kinds[i].bytes()));
     }
     return texels;
 }

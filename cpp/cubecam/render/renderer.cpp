@@ -337,16 +337,8 @@ auto Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraVa
     check_buffers(options);
     check_effects(scene, options);
     return run([&](RendererState& gpu) {
-        const int count = static_cast<int>(cameras.size());
-        TargetDescription description = describe_target(
-            gpu.context, {.shape = count == 1 ? TargetShape::flat() : TargetShape::array(count),
-                          .width = options.width,
-                          .height = options.height,
-                          .samples = options.samples,
-                          .format = options.format,
-                          .outputs = resolve_outputs(options.outputs, scene),
-                          .depth_format = options.depth_format,
-                          .color = options.color});
+        TargetDescription description =
+            describe_target(gpu.context, frame_request(scene, options, cameras.size()));
         std::optional<Encoding> known;
         const auto encoding_as_drawn = [&] {
             if (!known) known = scene_encoding(scene, 0, seen_by_all);
@@ -380,14 +372,7 @@ auto Renderer::capture_views(const SceneSnapshot& scene, const CaptureOptions& o
     check_buffers(options);
     return run([&](RendererState& gpu) {
         const TargetDescription description =
-            describe_target(gpu.context, {.shape = TargetShape::cube(),
-                                          .width = options.size,
-                                          .height = options.size,
-                                          .samples = options.samples,
-                                          .format = options.format,
-                                          .outputs = resolve_outputs(options.outputs, scene),
-                                          .depth_format = options.depth_format,
-                                          .depth_order = options.depth_order});
+            describe_target(gpu.context, capture_request(scene, options, TargetShape::cube()));
         Target& target = gpu.targets.get(gpu.context, description, result_bytes(description));
         std::vector<View> views =
             cube_views(options.position, options.near, options.far, options.eye, options.rotation);
@@ -495,27 +480,8 @@ constexpr int most_cubes_of_batch = 64;
 
 TargetDescription batch_target(const gl::Context& context, const SceneSnapshot& scene,
                                const CaptureOptions& options, int cubes) {
-    return describe_target(context, {.shape = TargetShape::cube_array(cubes),
-                                     .width = options.size,
-                                     .height = options.size,
-                                     .samples = options.samples,
-                                     .format = options.format,
-                                     .outputs = resolve_outputs(options.outputs, scene),
-                                     .depth_format = options.depth_format,
-                                     .depth_order = options.depth_order});
-}
-
-void add(Stats& sum, const Stats& more) {
-    sum.views_drawn += more.views_drawn;
-    sum.views_skipped += more.views_skipped;
-    sum.draw_calls += more.draw_calls;
-    sum.triangles += more.triangles;
-    sum.triangles_skipped += more.triangles_skipped;
-    sum.probes_updated += more.probes_updated;
-    sum.textures_updated += more.textures_updated;
-    sum.shadow_views_drawn += more.shadow_views_drawn;
-    sum.faces_filtered += more.faces_filtered;
-    sum.bounce_changes = more.bounce_changes;
+    return describe_target(context,
+                           capture_request(scene, options, TargetShape::cube_array(cubes)));
 }
 
 }  // namespace
@@ -530,11 +496,9 @@ Renderer::BatchShape Renderer::batch_shape(const SceneSnapshot& scene,
         TargetDescription texel = one;
         texel.width = texel.height = texel.samples = 1;
         Target& cleared = gpu.targets.get(gpu.context, texel);
-        const auto* color = std::get_if<glm::vec4>(&scene.background);
-        clear_all(gpu.context.gl(), cleared, color != nullptr ? *color : glm::vec4(0.0F));
+        clear_all(gpu.context.gl(), cleared, scene);
         const std::size_t most = gpu.context.software() ? software_batch_bytes : gpu_batch_bytes;
-        const gl::Limits& limits = gpu.context.limits();
-        const int layers = std::min(limits.max_array_texture_layers, limits.max_framebuffer_layers);
+        const int layers = most_layers(gpu.context.limits());
         const auto fitting =
             static_cast<int>(std::min<std::size_t>(most / one.bytes(), most_cubes_of_batch));
         return BatchShape{std::clamp(std::min(fitting, layers / 6), 1, most_cubes_of_batch),
@@ -563,7 +527,7 @@ void Renderer::capture_batch(const SceneSnapshot& scene, const CaptureOptions& o
             frame.draw(cube_views(places[i].position, options.near, options.far, options.eye,
                                   places[i].rotation),
                        batch, i, seen);
-            add(sum, frame.stats);
+            sum += frame.stats;
         }
         stats_ = std::move(sum);
         read_layers(gpu.context, batch.target, batch.drawn, clear, *gpu.results, gpu.read_ring, to);

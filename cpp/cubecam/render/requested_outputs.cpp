@@ -51,4 +51,29 @@ Outputs resolve_outputs(const RequestedOutputs& requested, const SceneSnapshot& 
     return outputs;
 }
 
+TargetRequest frame_request(const SceneSnapshot& scene, const FrameOptions& options,
+                            std::size_t views) {
+    const int count = static_cast<int>(views);
+    return {.shape = count == 1 ? TargetShape::flat() : TargetShape::array(count),
+            .width = options.width,
+            .height = options.height,
+            .samples = options.samples,
+            .format = options.format,
+            .outputs = resolve_outputs(options.outputs, scene),
+            .depth_format = options.depth_format,
+            .color = options.color};
+}
+
+TargetRequest capture_request(const SceneSnapshot& scene, const CaptureOptions& options,
+                              const TargetShape& shape) {
+    return {.shape = shape,
+            .width = options.size,
+            .height = options.size,
+            .samples = options.samples,
+            .format = options.format,
+            .outputs = resolve_outputs(options.outputs, scene),
+            .depth_format = options.depth_format,
+            .depth_order = options.depth_order};
+}
+
 }  // namespace cubecam

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 import numpy.typing as npt
 
+from .._array_protocol import array_of
 from .._calls import checked_call
 from .._checks import one_of, text_of
 from .._core import CubeMap, _cube_of_batch, _to_array
@@ -75,14 +76,14 @@ class CubeMapBatch:
 
     __module__ = "cubecam"
 
-    distance = Output("(P, 6, N, N) float32", "length of the ray, world units; +inf background")
-    z = Output("(P, 6, N, N) float32", "distance along the face's axis; +inf background")
-    normal = Output("(P, 6, N, N, 3) float32", "world shading normal; 0 background")
-    position = Output("(P, 6, N, N, 3) float32", "world position; NaN background")
-    id = Output("(P, 6, N, N) int32", "``Node.id`` of the visible node; 0 background")
-    label = Output("(P, 6, N, N) int32", "``Node.label`` of the visible node; 0 background")
-    depth = Output("(P, 6, N, N) float32", "window-space z, 0 near, 1 far and background")
-    stencil = Output("(P, 6, N, N) uint8", "the stencil buffer; 0 background")
+    distance = Output("P, 6, N, N")
+    z = Output("P, 6, N, N")
+    normal = Output("P, 6, N, N")
+    position = Output("P, 6, N, N")
+    id = Output("P, 6, N, N")
+    label = Output("P, 6, N, N")
+    depth = Output("P, 6, N, N")
+    stencil = Output("P, 6, N, N")
 
     @checked_call
     def __init__(
@@ -173,9 +174,7 @@ class CubeMapBatch:
         self, dtype: npt.DTypeLike | None = None, copy: bool | None = None
     ) -> npt.NDArray[Any]:
         """Give `faces` to ``numpy.asarray``."""
-        return (
-            np.array(self.faces, dtype=dtype, copy=True) if copy else np.asarray(self.faces, dtype)
-        )
+        return array_of(self.faces, dtype, copy)
 
     def __repr__(self) -> str:
         names = f", outputs={tuple(self.outputs)}" if self.outputs else ""

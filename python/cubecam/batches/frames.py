@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 import numpy.typing as npt
 
+from .._array_protocol import array_of
 from .._calls import checked_call
 from ._outputs import Output, OutputArrays
 
@@ -49,14 +49,14 @@ class FrameBatch:
 
     __module__ = "cubecam"
 
-    distance = Output("(F, H, W) float32", "length of the ray, world units; +inf background")
-    z = Output("(F, H, W) float32", "distance along the camera's axis; +inf background")
-    normal = Output("(F, H, W, 3) float32", "world shading normal; 0 background")
-    position = Output("(F, H, W, 3) float32", "world position; NaN background")
-    id = Output("(F, H, W) int32", "``Node.id`` of the visible node; 0 background")
-    label = Output("(F, H, W) int32", "``Node.label`` of the visible node; 0 background")
-    depth = Output("(F, H, W) float32", "window-space z, 0 near, 1 far and background")
-    stencil = Output("(F, H, W) uint8", "the stencil buffer; 0 background")
+    distance = Output("F, H, W")
+    z = Output("F, H, W")
+    normal = Output("F, H, W")
+    position = Output("F, H, W")
+    id = Output("F, H, W")
+    label = Output("F, H, W")
+    depth = Output("F, H, W")
+    stencil = Output("F, H, W")
 
     def __init__(
         self,
@@ -88,9 +88,7 @@ class FrameBatch:
         """Give `color` to ``numpy.asarray``."""
         if self.color is None:
             raise ValueError("expected frames with a colour, got a batch with format=None")
-        return (
-            np.array(self.color, dtype=dtype, copy=True) if copy else np.asarray(self.color, dtype)
-        )
+        return array_of(self.color, dtype, copy)
 
     def __repr__(self) -> str:
         names = f", outputs={tuple(self.outputs)}" if self.outputs else ""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .._core import __version__
+from ._outputs import MEANINGS
 
 if TYPE_CHECKING:
     import xarray
@@ -17,17 +18,8 @@ __all__ = ["cubes", "frames"]
 _FACES = ("+x", "-x", "+y", "-y", "+z", "-z")
 _CHANNELS = {1: ("luminance",), 3: ("r", "g", "b"), 4: ("r", "g", "b", "a")}
 _AXES = ("x", "y", "z")
-#: Units and meanings that readers of the file need.
-_MEANING = {
-    "distance": {"units": "world units", "long_name": "length of the ray; +inf background"},
-    "z": {"units": "world units", "long_name": "distance along the view's axis; +inf background"},
-    "normal": {"units": "1", "long_name": "world shading normal; 0 background"},
-    "position": {"units": "world units", "long_name": "world position; NaN background"},
-    "id": {"units": "1", "long_name": "Node.id of the visible node; 0 background"},
-    "label": {"units": "1", "long_name": "Node.label of the visible node; 0 background"},
-    "depth": {"units": "1", "long_name": "window-space z, 0 near, 1 far and background"},
-    "stencil": {"units": "1", "long_name": "stencil buffer; 0 background"},
-}
+#: Outputs in units of the world; the others have none.
+_LENGTHS = ("distance", "z", "position")
 
 
 def cubes(batch: CubeMapBatch) -> xarray.Dataset:
@@ -75,6 +67,15 @@ def _dataset(
             own = ("axis",) if vector else (f"{name}_channel",)
             if vector:
                 coordinates["axis"] = list(_AXES)
-        variables[name] = ((*axes, *own), values, dict(_MEANING.get(name, {})))
+        variables[name] = ((*axes, *own), values, _meaning(name))
     attributes = {**attributes, "source": f"cubecam {__version__}"}
     return xarray.Dataset(variables, coordinates, attributes)
+
+
+def _meaning(name: str) -> dict[str, str]:
+    if name not in MEANINGS:  # of a material's own
+        return {}
+    return {
+        "units": "world units" if name in _LENGTHS else "1",
+        "long_name": MEANINGS[name][2],
+    }

@@ -18,7 +18,7 @@ from .. import (
     Renderer,
     Scene,
 )
-from .._core import _shaded_outputs
+from .._core import _output_table
 from ..typing import Center, Convention, FileLayout
 from .common import (
     FILE,
@@ -39,7 +39,7 @@ from .help import Command, argument, option
 if TYPE_CHECKING:
     from .. import Mesh
 
-_OUTPUTS = tuple(_shaded_outputs())
+_OUTPUTS = tuple(name for name, shaded, *_ in _output_table() if shaded)
 MaterialName: TypeAlias = Literal["phong", "mirror", "glass"]
 
 # How much of the face -Z a mesh covers, from its middle to a side, if no option says where the mesh is.

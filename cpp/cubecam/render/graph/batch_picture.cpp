@@ -37,9 +37,7 @@ void BatchPicture::update() {
               batch_.drawn.begin() + static_cast<std::ptrdiff_t>(first_layer_));
     if (std::find(shows.begin(), shows.end(), true) == shows.end()) return;
     if (!batch_.cleared) {
-        const auto* color = std::get_if<glm::vec4>(&scene_.background);
-        clear_all(context_.gpu.context.gl(), batch_.target,
-                  color != nullptr ? *color : glm::vec4(0.0F));
+        clear_all(context_.gpu.context.gl(), batch_.target, scene_);
         batch_.cleared = true;
     }
     draw_shared(batch_.target, first_layer_, shows);

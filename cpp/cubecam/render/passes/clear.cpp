@@ -3,6 +3,7 @@
 #include "cubecam/image/depth_format.hpp"
 
 #include <cstddef>
+#include <variant>
 
 namespace cubecam {
 namespace {
@@ -47,7 +48,9 @@ void clear_bound(const GladGLContext& gl, const Target& target, const ClearValue
     }
 }
 
-void clear_all(const GladGLContext& gl, Target& target, const glm::vec4& color) {
+void clear_all(const GladGLContext& gl, Target& target, const SceneSnapshot& scene) {
+    const auto* plain = std::get_if<glm::vec4>(&scene.background);
+    const glm::vec4 color = plain != nullptr ? *plain : glm::vec4(0.0F);
     const TargetDescription& description = target.description();
     const bool shaded = description.outputs.shaded();
     gl.Enable(GL_SCISSOR_TEST);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cubecam/render/resources/target.hpp"
+#include "cubecam/scene/snapshot.hpp"
 
 namespace cubecam {
 
@@ -26,6 +27,6 @@ void clear_layer(const GladGLContext& gl, const Target& target, int layer, const
                  const ClearValues& values);
 
 /// Clears all layers of a target, for pictures that share it.
-void clear_all(const GladGLContext& gl, Target& target, const glm::vec4& color);
+void clear_all(const GladGLContext& gl, Target& target, const SceneSnapshot& scene);
 
 }  // namespace cubecam

@@ -23,6 +23,21 @@ struct Stats {
     /// the root of the mean of squares (BounceChangePass); NaN if that is not known.
     std::vector<double> bounce_changes;
     double milliseconds = 0.0;  ///< of the whole call with reading back
+
+    /// Adds the work of another picture of the same call.
+    Stats& operator+=(const Stats& more) {
+        views_drawn += more.views_drawn;
+        views_skipped += more.views_skipped;
+        draw_calls += more.draw_calls;
+        triangles += more.triangles;
+        triangles_skipped += more.triangles_skipped;
+        probes_updated += more.probes_updated;
+        textures_updated += more.textures_updated;
+        shadow_views_drawn += more.shadow_views_drawn;
+        faces_filtered += more.faces_filtered;
+        bounce_changes = more.bounce_changes;
+        return *this;
+    }
 };
 
 }  // namespace cubecam

@@ -65,6 +65,10 @@ void check_samples(const gl::Context& context, GLenum format, std::string_view n
 
 }  // namespace
 
+int most_layers(const gl::Limits& limits) {
+    return std::min(limits.max_array_texture_layers, limits.max_framebuffer_layers);
+}
+
 void check_limits(const gl::Limits& limits, const std::string& driver,
                   const TargetRequest& request) {
     const auto on = [&driver](const char* limit) {
@@ -80,7 +84,7 @@ void check_limits(const gl::Limits& limits, const std::string& driver,
         throw std::invalid_argument("size: expected 1 to " + std::to_string(largest) + " pixels" +
                                     on(limit) + ", got " + got);
     }
-    const int layers = std::min(limits.max_array_texture_layers, limits.max_framebuffer_layers);
+    const int layers = most_layers(limits);
     if (request.shape.count < 1 || request.shape.layers() > layers) {
         throw std::invalid_argument("layers: expected 1 to " + std::to_string(layers) +
                                     on("GL_MAX_ARRAY_TEXTURE_LAYERS") + ", got " +

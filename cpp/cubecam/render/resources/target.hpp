@@ -58,6 +58,9 @@ struct TargetRequest {
     DepthOrder depth_order = DepthOrder::nearest;
 };
 
+/// The largest number of layers of a target.
+int most_layers(const gl::Limits& limits);
+
 /// @throws std::invalid_argument that names the limit, if the size, the layers, the samples or the
 /// number of outputs exceed what a driver allows for any format. `driver` is GL_RENDERER.
 void check_limits(const gl::Limits& limits, const std::string& driver,
