@@ -158,16 +158,26 @@ def call():
 
 call()
 cc._core._interrupt_pause(0)
-watched(call)
-whole = moments[-1][0] - moments[0][0]
-gaps = [(b[0] - a[0], b[1] - a[1]) for a, b in zip(moments, moments[1:])]
-# On a busy machine the clock goes on while the call waits; on many cores the CPU time is that of all threads. Neither
-# has to do with where the call looks for signals, so the shorter of the two counts. In use, looks are 0.05 s apart.
-longest = max(min(gap) for gap in gaps)
-assert longest < 0.45, (longest, whole)
-# However fast the machine is: no part is nearly all of the work (the timer's steps are 0.01 s, and some parts short).
-assert max(gaps)[0] < max({most} * whole, 0.06), (max(gaps), whole)
-assert longest < max({longest} * whole, 0.06), (longest, whole)
+
+# A part without a look is there in each try. What the kernel does meanwhile is not: it may search half a second for
+# large pages when numpy copies an array.
+for attempt in range(6):
+    watched(call)
+    whole = moments[-1][0] - moments[0][0]
+    gaps = [(b[0] - a[0], b[1] - a[1]) for a, b in zip(moments, moments[1:])]
+    # On a busy machine the clock goes on while the call waits; on many cores the CPU time is that of all threads.
+    # Neither has to do with where the call looks for signals, so the shorter of the two counts. In use, looks are
+    # 0.05 s apart.
+    longest = max(min(gap) for gap in gaps)
+    looks_enough = (
+        longest < 0.45
+        # However fast the machine is: no part is nearly all of the work (steps of the timer are 0.01 s).
+        and max(gaps)[0] < max({most} * whole, 0.06)
+        and longest < max({longest} * whole, 0.06)
+    )
+    if looks_enough:
+        break
+assert looks_enough, (longest, max(gaps), whole)
 looks = len(moments) - 2
 assert looks > 2, looks
 for share in (.2, .7):

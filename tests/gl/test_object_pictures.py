@@ -19,7 +19,7 @@ from cubecam import _core
 from cubecam.pictures import describe, objects, rich_text, scenes, studio
 from cubecam.pictures.cards import Shot
 from tests.gl.full_world import full_world
-from tests.helpers import need_no_sanitizer, run_python
+from tests.helpers import run_python
 
 VOID = {"img", "br", "hr"}
 EVIL = '<script>alert("x")</script>&\'[red]'
@@ -457,16 +457,10 @@ def crowd(count, names="node"):
 
 def test_a_thousand_nodes_are_bounded():
     """The worst case: each node has a noisy material of its own and a long name that is all markup."""
-    need_no_sanitizer("it measures seconds of CPU")
     scene = crowd(1000, names="<&>" * 300)
-    cc.PhongMaterial(
-        map=np.zeros((2, 2, 3), np.uint8)
-    )._repr_html_()  # the renderer and its programs
-    start = time.process_time()
     html = scene._repr_html_()
-    spent = time.process_time() - start
     assert len(html.encode()) < 200_000
-    assert spent < 1
+    assert html.count("<img") <= scenes.MOST_BALLS + 2
     text = " ".join(Page(html).text)
     assert "1,000 nodes" in text
     assert "… and 950 more" in text

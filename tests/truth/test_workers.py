@@ -1,5 +1,6 @@
 """The processes that draw: how they begin, what their failures leave behind, and in which programs they work."""
 
+import contextlib
 import signal
 import subprocess
 import sys
@@ -21,19 +22,23 @@ def rendered(**options):
     return cc.truth.render(RED, cc.PerspectiveCamera(), (8, 8), **{"samples": 4, **options})
 
 
-def pipes():
-    """The open file descriptors of this process."""
-    return len(list(Path("/proc/self/fd").iterdir()))
+def pipes_and_children():
+    """The pipes that this process holds, and the processes that it started.
 
-
-def children():
+    Other files do not count: what earlier tests left to the garbage collector may open or close some meanwhile.
+    """
+    pipes = set()
+    for file in Path("/proc/self/fd").iterdir():
+        with contextlib.suppress(FileNotFoundError):  # the listing's own
+            if (target := str(file.readlink())).startswith("pipe:"):
+                pipes.add(target)
     task = f"/proc/self/task/{threading.get_native_id()}/children"
-    return Path(task).read_text().split()
+    return pipes, Path(task).read_text().split()
 
 
 def test_processes_that_cannot_all_begin_leave_none(monkeypatch):
     """`with` does not call __exit__ for an exception in __enter__."""
-    before = pipes(), children()
+    before = pipes_and_children()
     original = subprocess.Popen
     made: list[subprocess.Popen[bytes]] = []
 
@@ -47,11 +52,11 @@ def test_processes_that_cannot_all_begin_leave_none(monkeypatch):
     with pytest.raises(OSError, match="no more processes"):
         rendered(processes=2)
     assert made[0].poll() == -signal.SIGKILL
-    assert (pipes(), children()) == before
+    assert pipes_and_children() == before
 
 
 def test_nothing_is_left_after_a_deadline_and_after_an_error(monkeypatch):
-    before = pipes(), children()
+    before = pipes_and_children()
     rendered(processes=2, samples=64, deadline=1e-9)
     monkeypatch.setattr(sums.Sums, "add", lambda *_: 1 / 0)
     with pytest.raises(ZeroDivisionError):
@@ -59,7 +64,7 @@ def test_nothing_is_left_after_a_deadline_and_after_an_error(monkeypatch):
     for thread in threading.enumerate():
         if thread.name.endswith("(_feed)"):
             thread.join(5)
-    assert (pipes(), children()) == before
+    assert pipes_and_children() == before
 
 
 def test_without_an_interpreter(monkeypatch):

@@ -3,7 +3,6 @@
 import json
 import os
 import re
-import resource
 import subprocess
 import sys
 import sysconfig
@@ -488,23 +487,23 @@ LIGHT = {"help": ["--help"], "version": ["--version"], "info": ["info"], "json":
 @pytest.mark.slow
 @pytest.mark.parametrize("arguments", LIGHT.values(), ids=LIGHT)
 def test_what_is_asked_first_is_quick(arguments):
-    """Less than 200 ms of CPU time, of all threads: numpy and rich are not loaded."""
-    done = subprocess.run(
-        [sys.executable, "-X", "importtime", "-m", "cubecam", *arguments],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    for module in ("numpy", "rich", "OpenImageIO", "trimesh", "PIL"):
-        assert not re.search(rf"\| +{module}(\.|$)", done.stderr, re.MULTILINE), module
+    """Nothing is loaded but Python, click and what answers: numpy alone takes as long as all of it."""
 
-    def seconds():
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        assert run(*arguments).returncode == 0
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    def loaded(*command):
+        done = subprocess.run(
+            [sys.executable, "-X", "importtime", *command],
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        names = re.findall(r"\| +([\w.]+)$", done.stderr, re.MULTILINE)
+        return {name.partition(".")[0] for name in names}
 
-    assert min(seconds() for _ in range(4)) < 0.2
+    ours = loaded("-m", "cubecam", *arguments) - loaded("-c", "pass") - set(sys.stdlib_module_names)
+    assert ours - {"org"} == {
+        "cubecam",
+        "click",
+    }  # the module copy tries to import org.python, of Jython
 
 
 def complete(shell, words):
