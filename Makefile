@@ -79,7 +79,7 @@ stubs: $(VENV)/.installed $(VENV)/.deps-dev ## write python/cubecam/_core.pyi ag
 bench: $(VENV)/.installed $(VENV)/.deps-bench ## compare with moderngl, ZenGL, py360convert and OpenCV, print ratios
 	@$(PY) -m benchmarks $(BENCH_ARGS)
 
-curves: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-bench $(VENV)/.deps-peers ## measure what a cubemap costs beside moderngl, ZenGL, VTK, add to out/curves, write docs/explanation/cost_curves.md
+curves: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-bench $(VENV)/.deps-peers ## measure what a cubemap costs beside moderngl, ZenGL, VTK, Panda3D, C++, add to out/curves, write docs/explanation/cost_curves.md
 	@$(PY) -m benchmarks.curves --history out/curves --page docs/explanation/cost_curves.md $(CURVES_ARGS)
 
 gpu-check: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-bench ## try the GPU: tests, benchmarks, readback, 1,000 probes, pictures, one JSON in out/gpu_check

@@ -1,14 +1,14 @@
 """How the cost of a cubemap depends on the scene and on the arguments of the capture.
 
-    python -m benchmarks.curves                                    all curves, in three minutes
+    python -m benchmarks.curves                                    all curves, in five minutes
     python -m benchmarks.curves --only lights --only samples
     python -m benchmarks.curves --history out/curves --page docs/explanation/cost_curves.md
 
 Each curve changes one number of a field (`benchmarks/field.py`): teapots on a ground, captured from a place that is
 another one for each frame, so that all faces are drawn. At each point cubecam, programs in moderngl and ZenGL that
-cull by hand, and VTK draw the same frames; their arrays are compared first, and then they take turns. A last time is
-that of copying the result's bytes, which nothing can be below. Times are medians: CPU time of all threads, and by the
-clock.
+cull by hand, VTK, Panda3D and a loop in C++ over OpenGL calls draw the same frames; their arrays are compared first,
+and then they take turns. A last time is that of copying the result's bytes, which nothing can be below. Times are
+medians: CPU time of all threads, and by the clock.
 
 `--history` gets a file for each run: commit, machine, driver and all points. `--page` writes the table and the lines
 into a document, between its marks, and the figure beside it. `--callgrind` counts instructions with valgrind.
@@ -43,13 +43,19 @@ from .processes import ROOT, CpuWorker, WorkerError
 BEGIN, END = "<!-- benchmarks.curves -->", "<!-- end -->"
 PICTURE = ROOT / "docs" / "images" / "why-cost-curves.svg"
 OUTPUTS = ("distance", "normal", "position", "z")
-#: Programs that draw the same: in moderngl and ZenGL their objects are culled by hand, VTK has its own culler.
+#: Programs that draw the same. In moderngl, ZenGL and C++ their objects are culled by hand; VTK and Panda3D cull by
+#: themselves. The loop in C++ calls OpenGL and nothing else.
 PEERS = {
     "moderngl": batches.MODERNGL,
     "ZenGL": "peers.batches_zengl:Culled",
     "VTK": "peers.batches_vtk:Actors",
+    "Panda3D": "peers.batches_panda3d:Nodes",
+    "C++": "peers.batches_floor:Loop",
 }
-COLORS_ALONE = {"VTK"}
+COLORS_ALONE = {"VTK", "Panda3D"}
+ONE_SAMPLE = {"Panda3D"}
+#: Packages that a peer needs, if its name in lower case is not the only one.
+NEEDED = {"C++": ("glad", "moderngl"), "Panda3D": ("panda3d", "moderngl")}
 OWN, OTHER_PICTURES = "cubecam", "other pictures"
 BASE: dict[str, Any] = {"probes": 1, "size": 128, "outputs": []}
 
@@ -152,8 +158,14 @@ def copy_ms(arrays: batches.Arrays) -> float:
 
 
 def installed() -> dict[str, str]:
-    """Those of PEERS whose packages there are."""
-    return {name: path for name, path in PEERS.items() if find_spec(name.lower()) is not None}
+    """Those of PEERS whose packages there are, and the loop in C++ if there is a compiler."""
+    compiler = shutil.which("c++") or shutil.which("g++")
+    return {
+        name: path
+        for name, path in PEERS.items()
+        if all(find_spec(package) for package in NEEDED.get(name, (name.lower(),)))
+        and (name != "C++" or compiler)
+    }
 
 
 def measure(
@@ -167,6 +179,8 @@ def measure(
     with ExitStack() as stack:
         for name, path in {OWN: curve.program, **installed()}.items():
             if name in COLORS_ALONE and options["outputs"]:
+                continue
+            if name in ONE_SAMPLE and options.get("samples", 1) > 1:
                 continue
             try:
                 program = CpuWorker(path, **options)
@@ -287,6 +301,8 @@ STYLES = {
     "moderngl": ("s--", "#2c5f8a"),
     "ZenGL": ("^--", "#3b8a5a"),
     "VTK": ("d--", "#9a6bb0"),
+    "Panda3D": ("v--", "#c78a2e"),
+    "C++": ("x-", "#333333"),
     COPYING: (":", "#777777"),
 }
 

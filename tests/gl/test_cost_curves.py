@@ -94,6 +94,8 @@ class TestPrograms:
     def test_peers_draw_the_same(self, programs, peer, samples):
         if peer not in curves.installed():
             pytest.skip(f"{peer} is not installed")
+        if peer in curves.ONE_SAMPLE and samples > 1:
+            pytest.skip(f"{peer} has one sample")
         outputs = [] if samples > 1 or peer in curves.COLORS_ALONE else ALL
         options = {**TINY, "outputs": outputs, "samples": samples}
         program = CpuWorker(curves.PEERS[peer], **options)
@@ -178,10 +180,11 @@ class TestCurves:
     def test_tables_have_the_numbers(self):
         points = [point("lights", 1, 2.5, 5), point("lights", 2, 3, 6), point("lights", 4, 4)]
         lines = curves.lines_markdown(points).splitlines()
-        assert lines[2] == "| lights | 20 teapots | 2 + 0.5 | 4 + 1 |  |  | light |"
+        others = (len(curves.PEERS) - 1) * "|  "  # have no numbers
+        assert lines[2] == f"| lights | 20 teapots | 2 + 0.5 | 4 + 1 {others}| light |"
         rows = curves.points_markdown(points).splitlines()
-        assert rows[3] == "| lights | 2 | 3 / 3 | 6 / 6 |  |  | 0.5 |  |  | 0.01 |"
-        assert rows[4] == "| lights | 4 | 4 / 4 |  |  |  |  |  |  | 0.01 |"
+        assert rows[3] == f"| lights | 2 | 3 / 3 | 6 / 6 {others}| 0.5 {others}| 0.01 |"
+        assert rows[4] == f"| lights | 4 | 4 / 4 |  {others}|  {others}| 0.01 |"
 
     def test_a_run_is_a_file_of_the_history(self, tmp_path):
         points = [point("lights", 1, 2.5)]
