@@ -29,8 +29,8 @@ namespace cubecam::bindings {
 namespace {
 
 using OutputKinds = Shown<"list[tuple[str, int, numpy.dtype[numpy.generic]]]">;
-using FrameShapeTuple = Shown<"tuple[tuple[int, int], numpy.dtype[numpy.generic] | None, "
-                              "list[tuple[str, int, numpy.dtype[numpy.generic]]], str]">;
+using FrameArrays = Shown<"tuple[tuple[int, int], numpy.dtype[numpy.generic] | None, "
+                          "list[tuple[str, int, numpy.dtype[numpy.generic]]]]">;
 using ArraysOfBatch = py::typing::Tuple<Pixels, py::typing::List<OutputArray>>;
 using CameraList = OneOf<py::typing::Iterable<SeenBy>>;
 
@@ -173,8 +173,7 @@ make_renders(const std::shared_ptr<Renderer>& renderer, const Scene& scene,
     return made;
 }
 
-/// Checks what can be said of all frames before one is drawn, and gives their shape: that of the
-/// colour, its dtype, the outputs, the encoding.
+/// Checks what can be said of all frames before one is drawn, and gives what they will hold.
 FrameShape shape_of(const RenderBatch& batch) {
     for (const auto& camera : batch.cameras) {
         (void)FrameRequest{batch.scene, camera, batch.options}.check(batch.renderer->info());
@@ -266,17 +265,22 @@ void bind_batches(pybind11::module_& module) {
         .def("__len__", [](const RenderBatch& self) { return self.cameras.size(); })
         .def_property_readonly("in_order", &in_order<RenderBatch>,
                                "bool: whether its pictures depend on those before them.")
+        .def_property_readonly("encoding",
+                               [](const RenderBatch& self) -> EncodingNow {
+                                   return to_string(
+                                       frame_shape(*self.scene, self.options).encoding);
+                               })
         .def(
             "shape",
-            [](const RenderBatch& self) -> FrameShapeTuple {
+            [](const RenderBatch& self) -> FrameArrays {
                 const FrameShape shape = shape_of(self);
                 const FrameOptions& options = self.options;
                 return py::make_tuple(
                     py::make_tuple(options.width, options.height),
                     options.color ? py::object(numpy_dtype(dtype_of(options.format))) : py::none(),
-                    described(shape.outputs), to_string(shape.encoding));
+                    described(shape.outputs));
             },
-            "The size, the dtype of colours or None, the outputs and the encoding of all frames; "
-            "checks what can be known before one is drawn.")
+            "The size, the dtype of colours or None, and the outputs of all frames; checks what "
+            "can be known before one is drawn.")
         .def("draw", &render, py::arg("number"));
 }

@@ -10091,15 +10091,14 @@ class _RenderBatch:
     def shape(
         self: _RenderBatch,
     ) -> tuple[
-        tuple[int, int],
-        np.dtype[np.generic] | None,
-        list[tuple[str, int, np.dtype[np.generic]]],
-        str,
+        tuple[int, int], np.dtype[np.generic] | None, list[tuple[str, int, np.dtype[np.generic]]]
     ]:
         """
-        The size, the dtype of colours or None, the outputs and the encoding of all frames; checks what can be known before one is drawn.
+        The size, the dtype of colours or None, and the outputs of all frames; checks what can be known before one is drawn.
         """
 
+    @property
+    def encoding(self) -> Encoding: ...
     @property
     def in_order(self) -> bool:
         """

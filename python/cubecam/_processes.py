@@ -1,7 +1,7 @@
 """Other Python processes that work for this one: how they start, how they get messages, and how they end.
 
-They are plain processes that read from a socket, not those of `multiprocessing`: these would run the user's script again
-in each of them, unless it is written for that. They end when the socket does, however this process ends.
+They are plain processes that read from a socket, not those of `multiprocessing`: these would run the user's script
+again in each of them, unless it is written for that. They end when the socket does, however this process ends.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class Channel:
     def __init__(self, end: socket.socket) -> None:
         self._end = end
 
-    def send(self, message: bytes, descriptors: Iterable[int] = ()) -> None:
+    def send(self, message: bytes | memoryview, descriptors: Iterable[int] = ()) -> None:
         """Send a message; nothing if the other process has ended, which `receive` notices."""
         head = _SIZE.pack(len(message))
         numbers = array.array("i", descriptors)
@@ -99,8 +99,8 @@ class Process:
         "cubecam.module:function".
     environment : mapping of str to str
         Variables of the environment, besides those of this process.
-    for_what : str
-        What stands before the message of an error.
+    owner, instead : str
+        What an error names first, and what it says at its end.
 
     Raises
     ------
@@ -108,12 +108,15 @@ class Process:
         If this program has no interpreter that could be started.
     """
 
-    def __init__(self, function: str, environment: Mapping[str, str], for_what: str) -> None:
+    def __init__(
+        self, function: str, environment: Mapping[str, str], *, owner: str, instead: str
+    ) -> None:
         program = interpreter()
         if program is None:
             raise RuntimeError(
-                f"{for_what} expected sys.executable to name the Python of other processes, got "
-                f"{sys.executable!r} in {'a frozen' if hasattr(sys, 'frozen') else 'this'} program"
+                f"{owner}: expected sys.executable to name the Python of other processes, got "
+                f"{sys.executable!r} in {'a frozen' if hasattr(sys, 'frozen') else 'this'} program; "
+                f"{instead}"
             )
         path = [each for each in sys.path if isinstance(each, str)]  # Python ignores all else
         here, there = (_beyond_streams(end) for end in socket.socketpair())

@@ -212,7 +212,12 @@ class _Seat:
 
     def _start(self) -> None:
         crew = self._crew
-        process = Process("cubecam.pool.worker:serve", crew.environment, "Pool:")
+        process = Process(
+            "cubecam.pool.worker:serve",
+            crew.environment,
+            owner="Pool",
+            instead="give it an executor, or use a Renderer",
+        )
         process.channel.send(pickle.dumps(crew.options, protocol=5))
         with crew.changed:
             self.process = process

@@ -14,6 +14,7 @@ import pickle
 import sys
 import weakref
 from collections.abc import Callable
+from pathlib import Path
 from typing import IO, Any
 
 from .._checks import text_of
@@ -44,6 +45,7 @@ class PayloadKeeper:
 
     def __init__(self) -> None:
         self._objects: list[weakref.ref[Any]] = []
+        self._shape: list[int] = []  # lengths of the lists
         self._revision = -1
         self._payload: Payload | None = None
 
@@ -144,7 +146,7 @@ def _script() -> dict[str, str]:
     names = ("init_main_from_name", "init_main_from_path")
     script = {name: str(found[name]) for name in names if found.get(name)}
     path = script.get("init_main_from_path")
-    return script if path is None or os.path.exists(path) else {}  # "<stdin>" is no script
+    return script if path is None or Path(path).exists() else {}  # "<stdin>" is no script
 
 
 def _dumped(thing: Any, dump: Callable[..., None]) -> memoryview:

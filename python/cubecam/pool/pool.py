@@ -15,6 +15,7 @@ from .._calls import checked_call
 from .._checks import check_room, text_of, whole_number
 from .._core import (
     Camera,
+    ContextError,
     CubeMap,
     Device,
     ImageEffect,
@@ -357,7 +358,7 @@ class Pool:
         }
         passes = _listed(effects)
         batch = _RenderBatch(self._own(), scene, seen_by, size, effects=passes, **options)
-        whole, color, kinds, encoding = batch.shape()
+        whole, color, kinds = batch.shape()
         layout = frame_layout(whole, color, kinds)
         count = len(seen_by)
         check_room(
@@ -378,7 +379,7 @@ class Pool:
         arrays = list(call.arrays)
         pixels = None if color is None else arrays.pop(0)
         named = {name: array for (name, _, _), array in zip(kinds, arrays, strict=True)}
-        return FrameBatch(count, whole, pixels, named, format, encoding)
+        return FrameBatch(count, whole, pixels, named, format, batch.encoding)
 
     @checked_call
     def capture_scenes(
@@ -425,8 +426,8 @@ class Pool:
         Raises
         ------
         TypeError, ValueError, ContextError, Error
-            As `cubecam.capture_scenes` and `capture_many` raise; TypeError, too, for a function that workers do not find.
-            What `make_scene` raises ends the call.
+            As `cubecam.capture_scenes` and `capture_many` raise; TypeError, too, for a function that workers do not
+            find. What `make_scene` raises ends the call.
         """
         number_of_scenes = whole_number(count, "count", 0)
         if not callable(make_scene):
@@ -467,8 +468,6 @@ class Pool:
     def _own(self) -> Renderer:
         """Give the renderer that checks arguments."""
         if self._renderer is None:
-            from .._core import ContextError
-
             raise ContextError(CLOSED)
         return self._renderer
 
