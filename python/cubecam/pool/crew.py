@@ -44,16 +44,10 @@ class _Running:
         self.done: dict[int, list[tuple[type[Warning], str]]] = {}  # warnings of pieces
         self.error: BaseException | None = None
         self.ended = False
-        self.seat: _Seat | None = None  # that draws all of it, if its order counts
 
-    def has_piece(self, seat: _Seat) -> bool:
-        if (
-            self.ended
-            or self.error
-            or self.next >= min(self.call.pieces, self.taken + self.call.window)
-        ):
-            return False
-        return not self.call.in_order or (not self.under_way and self.seat in (None, seat))
+    def has_piece(self) -> bool:
+        most = min(self.call.pieces, self.taken + self.call.window)
+        return self.next < most and not self.ended and self.error is None
 
 
 class Crew:
@@ -131,7 +125,7 @@ class Crew:
             running.rows.close()
             if running in self._calls:
                 self._calls.remove(running)
-            if running.call.payload.reusable and not running.call.in_order:
+            if running.call.payload.reusable:
                 self._kept = running.call.payload.token
             self.changed.notify_all()
             # What a caller of Ctrl-C gets back is all of the memory.
@@ -176,14 +170,13 @@ class Crew:
         """Say whether a call is not ended."""
         return any(each.number == number for each in self._calls)
 
-    def piece_for(self, seat: _Seat) -> tuple[_Running, Piece] | None:
+    def next_piece(self) -> tuple[_Running, Piece] | None:
         """Give out a piece."""
         for running in self._calls:
-            if running.has_piece(seat):
+            if running.has_piece():
                 piece = running.call.piece(running.next)
                 running.next += 1
                 running.under_way += 1
-                running.seat = seat
                 self._calls.remove(running)  # calls of several threads take turns
                 self._calls.append(running)
                 return running, piece
@@ -199,9 +192,6 @@ class _Seat:
         self.draws: _Running | None = None
         self._loaded: set[str] = set()  # tokens of payloads
         self._opened: set[int] = set()  # numbers of calls
-        self._at: tuple[int, int, str] | None = (
-            None  # call, next piece, token of one whose order counts
-        )
         self.thread = threading.Thread(target=self._work, daemon=True, name="cubecam pool")
         self._start()
 
@@ -221,7 +211,7 @@ class _Seat:
         process.channel.send(pickle.dumps(crew.options, protocol=5))
         with crew.changed:
             self.process = process
-            self._loaded, self._opened, self._at = set(), set(), None
+            self._loaded, self._opened = set(), set()
             if crew.closed is not None:
                 process.kill()
 
@@ -256,9 +246,9 @@ class _Seat:
                 while True:
                     if crew.closed is not None:
                         return None
-                    old = [each for each in self._loaded if not self._needs(each)]
+                    old = [each for each in self._loaded if not crew.needs(each)]
                     ended = [each for each in self._opened if not crew.lives(each)]
-                    given = crew.piece_for(self)
+                    given = crew.next_piece()
                     if given is not None or old or ended:
                         break
                     crew.changed.wait()
@@ -272,11 +262,6 @@ class _Seat:
                 self._send("close", number)
             if given is not None:
                 return given
-
-    def _needs(self, token: str) -> bool:
-        if self._at is not None and token == self._at[2]:
-            return self._crew.lives(self._at[0])
-        return self._crew.needs(token)
 
     def _send(self, *message: Any, descriptors: tuple[int, ...] = ()) -> None:
         if self.process is not None:
@@ -309,22 +294,11 @@ class _Seat:
 
     def _order(self, running: _Running, piece: Piece) -> bool:
         """Tell the process all that it needs for a piece, and to draw it; False if the call has ended."""
-        call, payload, skip = running.call, running.call.payload, 0
-        work = call.work.part(piece.first, piece.count)
-        token = payload.token
-        if call.in_order:
-            if self._at is not None and self._at[:2] == (running.number, piece.number):
-                token = self._at[2]
-            else:  # from the beginning, with objects that nobody has drawn
-                payload, skip = payload.again(), piece.first
-                token = payload.token
-                work = call.work.part(0, piece.first + piece.count)
-            self._at = (running.number, piece.number + 1, token)
-        if token not in self._loaded:
-            self._load(payload)
+        call = running.call
+        if call.payload.token not in self._loaded:
+            self._load(call.payload)
         with self._crew.changed:  # so that the descriptor is not closed meanwhile
             if running.ended:
-                self._at = None
                 return False
             if running.number not in self._opened:
                 self._opened.add(running.number)
@@ -332,7 +306,9 @@ class _Seat:
                 self._send(
                     "open", running.number, rows.layout, rows.count, descriptors=(rows.descriptor,)
                 )
-        self._send("draw", running.number, token, work, skip, call.row(piece), piece.count)
+        work = call.work.part(piece.first, piece.count)
+        row = call.row(piece)
+        self._send("draw", running.number, call.payload.token, work, row, piece.count)
         return True
 
     def _load(self, payload: Payload) -> None:

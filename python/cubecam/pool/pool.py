@@ -35,7 +35,7 @@ from ..typing import DepthFormat, DepthOrder, Encode, Format, Tonemap
 from .calls import Call
 from .crew import CLOSED, Crew
 from .memory import Arrays
-from .payload import PayloadKeeper, check_outside_import, packed_function
+from .payload import PayloadKeeper, check_outside_import, packed, packed_function
 from .remote import Remote
 from .work import Captures, Frames, Scenes, cube_layout, frame_layout
 
@@ -62,9 +62,8 @@ class Pool:
     a pool in a ``with`` block, or call `close`. Any thread may use it, and several calls share the processes.
 
     What a call gives is what a new `Renderer` gives for the scene as it is then, whatever the pool has drawn before:
-    probes with ``update="once"`` or a number show the scene of this call, those with "manual" are never drawn. The
-    bytes depend neither on the number of workers nor on who draws what. If a probe has ``faces_per_frame`` below 6,
-    pictures depend on those before them, and one worker alone draws the whole call.
+    probes with ``update="once"``, a number, or few ``faces_per_frame`` show the scene of this call, and those with
+    "manual" are never drawn. The bytes depend neither on the number of workers nor on who draws what.
 
     Parameters
     ----------
@@ -115,6 +114,7 @@ class Pool:
     ) -> None:
         check_outside_import()
         count = None if workers is None else whole_number(workers, "workers", 1)
+        self._workers = count or _cores()
         if executor is not None and not hasattr(executor, "submit"):
             raise TypeError(
                 f"executor: expected an Executor of concurrent.futures or None, got {text_of(executor)}"
@@ -126,14 +126,14 @@ class Pool:
             "debug": debug,
             "trust_shaders": trust_shaders,
         }
-        self._renderer: Renderer | None = Renderer(**options)
+        self._renderer: Renderer | None = None
+        self._renderer = Renderer(**options)
         self._kept = PayloadKeeper()
         self._crew: Crew | Remote
         if executor is None:
-            self._workers = count or _cores()
             self._crew = Crew(self._workers, options, _environment(self._workers))
         else:
-            self._workers = count or getattr(executor, "_max_workers", None) or _cores()
+            self._workers = count or getattr(executor, "_max_workers", None) or self._workers
             self._crew = Remote(executor, options, 2 * self._workers)
         self._finish = weakref.finalize(self, self._crew.close)
 
@@ -358,6 +358,8 @@ class Pool:
         }
         passes = _listed(effects)
         batch = _RenderBatch(self._own(), scene, seen_by, size, effects=passes, **options)
+        # What may hold parts of the scene travels with it.
+        alone = not passes and not any(map(_follows, seen_by))
         whole, color, kinds = batch.shape()
         layout = frame_layout(whole, color, kinds)
         count = len(seen_by)
@@ -367,13 +369,12 @@ class Pool:
             "cameras",
         )
         call = Call(
-            Frames(0, count, whole, options),
-            self._kept.packed(scene, seen_by, passes),
+            Frames(0, count, seen_by if alone else None, whole, options),
+            self._kept.packed(scene, batch.revision) if alone else packed(scene, seen_by, passes),
             layout,
             count,
-            count if batch.in_order else self._step(count, 1),
+            self._step(count, 1),
             title="frames",
-            in_order=batch.in_order,
         )
         self._draw(call, progress)
         arrays = list(call.arrays)
@@ -449,7 +450,8 @@ class Pool:
         own = self._own()
         payload = packed_function(make_scene, "make_scene")
         scene = scene_of(make_scene, 0) if number_of_scenes else Scene()
-        batch = Captures(places[:1], None, options).batch(own, scene, ())
+        at = places[:1]
+        batch = _CaptureBatch(own, scene, at, None, exclude=(), **options)
         check_batch_room(batch, number_of_scenes)
         call = Call(
             Scenes(0, places, options, batch.outputs, batch.encoding),
@@ -487,7 +489,6 @@ class Pool:
         count, most = len(batch), batch.most_cubes
         if in_memory:
             step, window = self._step(count, most), None
-            step = max(count, 1) if batch.in_order else step
         else:
             step = min(most, self._step(count, 1))
             window = 2 * self._workers + 1
@@ -495,14 +496,15 @@ class Pool:
         places = floats_of(positions)
         assert places is not None
         call = Call(
-            Captures(places, floats_of(rotations), options),
-            self._kept.packed(scene, left_out),
+            Captures(
+                places, floats_of(rotations), frozenset(node.id for node in left_out), options
+            ),
+            self._kept.packed(scene, batch.revision),
             cube_layout(batch),
             count,
             step,
             title="captures",
             window=window,
-            in_order=batch.in_order,
         )
         return call, batch
 
@@ -538,6 +540,12 @@ def _cubes(batch: _CaptureBatch, arrays: Arrays) -> CubeMapBatch:
     return CubeMapBatch(
         arrays[0], outputs=dict(zip(names, arrays[1:], strict=True)), encoding=batch.encoding
     )
+
+
+def _follows(camera: Camera | StereoCamera) -> bool:
+    """Find whether a node moves a camera."""
+    eyes = [camera.left, camera.right] if isinstance(camera, StereoCamera) else [camera]
+    return any(getattr(eye, "parent", None) is not None for eye in eyes)
 
 
 def _listed(values: Any) -> Any:
