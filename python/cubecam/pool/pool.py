@@ -49,6 +49,9 @@ __all__ = ["Pool"]
 #: Into how many pieces a call is cut for each worker, if it is long enough.
 _PIECES = 8
 
+#: A larger number is a mistake: each worker is a process with a renderer.
+_MOST_WORKERS = 1024
+
 #: The most scenes or frames of a piece.
 _MOST = 64
 
@@ -81,7 +84,7 @@ class Pool:
     Raises
     ------
     TypeError, ValueError, ContextError
-        As `Renderer` raises; for a number of workers that is not an int of at least 1, or something else as executor.
+        As `Renderer` raises; for a number of workers that is not an int from 1 to 1024, or something else as executor.
     RuntimeError
         In a program without an interpreter that could be started; in a script that makes a pool outside of
         ``if __name__ == "__main__":`` and whose function `capture_scenes` was given.
@@ -113,7 +116,7 @@ class Pool:
         trust_shaders: bool = False,
     ) -> None:
         check_outside_import()
-        count = None if workers is None else whole_number(workers, "workers", 1)
+        count = None if workers is None else whole_number(workers, "workers", 1, _MOST_WORKERS)
         self._workers = count or _cores()
         if executor is not None and not hasattr(executor, "submit"):
             raise TypeError(
@@ -142,6 +145,7 @@ class Pool:
         """int: the number of processes, or what an executor is taken to have."""
         return self._workers
 
+    @checked_call
     def close(self) -> None:
         """End the processes; calls under way raise ContextError. Nothing if the pool is closed."""
         self._finish()
