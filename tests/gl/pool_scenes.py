@@ -24,6 +24,15 @@ def failing(number):
     return numbered(number)
 
 
+def failing_from_7(number):
+    """Number 7 takes longer to fail than those after it."""
+    if number == 7:
+        time.sleep(0.1)
+    if number >= 7:
+        raise LookupError(f"no scene has the number {number}")
+    return numbered(number)
+
+
 def other_outputs(number):
     """The material of number 5 declares another type."""
     scene = numbered(number)

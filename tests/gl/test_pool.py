@@ -341,6 +341,14 @@ def test_workers_that_are_killed_in_the_middle(pool, renderer):
     assert np.stack(found).tobytes() == single.faces.tobytes()
 
 
+def test_workers_that_died_between_two_calls(pool):
+    """They are no sign that a piece kills those who draw it."""
+    for _ in range(4):
+        for process in crew_of(pool).pids:
+            os.kill(process, signal.SIGKILL)
+        assert len(pool.capture_many(boxes(), places(1), SIZE)) == 1
+
+
 def test_what_kills_every_worker(pool):
     text = (
         "scenes 3: expected a worker process to draw them, got the end of 3 that tried (SIGKILL, "
@@ -366,6 +374,13 @@ def test_what_a_worker_raises(pool):
         pool.capture_many(scene, places(20), SIZE)
     assert "in draw" in str(wrong.value.__cause__)
     assert len(pool.capture_many(boxes(), places(5), SIZE)) == 5
+
+
+def test_which_error_is_raised(pool):
+    """The error of the first piece that has one is raised, whoever finds one first."""
+    for _ in range(3):
+        with pytest.raises(LookupError, match="no scene has the number 7"):
+            pool.capture_scenes(pool_scenes.failing_from_7, 400, size=SIZE)
 
 
 def test_warnings_of_workers_come_to_the_users_line(pool):

@@ -15,7 +15,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from .._core import ContextError, Error
-from .._processes import Process, ending_of
+from .._processes import Process, ending_of, leave_signals_to_others
 from .._warnings import warn_at
 from .calls import Call, Piece
 from .memory import Rows
@@ -42,12 +42,12 @@ class _Running:
         self.taken = 0  # pieces that the caller is done with
         self.under_way = 0
         self.done: dict[int, list[tuple[type[Warning], str]]] = {}  # warnings of pieces
-        self.error: BaseException | None = None
+        self.errors: dict[int, BaseException] = {}
         self.ended = False
 
     def has_piece(self) -> bool:
         most = min(self.call.pieces, self.taken + self.call.window)
-        return self.next < most and not self.ended and self.error is None
+        return self.next < most and not self.ended and not self.errors
 
 
 class Crew:
@@ -104,8 +104,8 @@ class Crew:
         for number in range(running.call.pieces):
             with self.changed:
                 while number not in running.done:
-                    if running.error is not None:
-                        raise running.error
+                    if number in running.errors:  # those before it are done
+                        raise running.errors[number]
                     self._check_open()
                     self.changed.wait()
                 caught = running.done.pop(number)
@@ -216,6 +216,7 @@ class _Seat:
                 process.kill()
 
     def _work(self) -> None:
+        leave_signals_to_others()
         try:
             while (given := self._next()) is not None:
                 running, piece = given
@@ -270,6 +271,8 @@ class _Seat:
     def _drawn(self, running: _Running, piece: Piece) -> Answer | None:
         """Let the process draw a piece; None if the call has ended meanwhile."""
         while not running.ended:
+            if self.process is not None and not self.process.lives:  # since the last piece
+                self.end()
             if self.process is None:
                 self._start()
             assert self.process is not None
@@ -331,7 +334,7 @@ class _Seat:
             self.draws = None
             running.under_way -= 1
             if error is not None:
-                running.error = running.error or error
+                running.errors[piece.number] = error
             elif answer is not None:
                 running.done[piece.number] = answer[1]
             self._crew.changed.notify_all()

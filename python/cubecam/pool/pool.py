@@ -79,7 +79,7 @@ class Pool:
         dead workers are the executor's own matter. It stays open when the pool is closed.
     device, layered, cache_bytes, debug, trust_shaders
         As for `Renderer`, for each worker. This process has such a renderer, too, which checks arguments and draws
-        nothing.
+        nothing; a software one if an `executor` draws and this machine lacks the device.
 
     Raises
     ------
@@ -130,7 +130,7 @@ class Pool:
             "trust_shaders": trust_shaders,
         }
         self._renderer: Renderer | None = None
-        self._renderer = Renderer(**options)
+        self._renderer = _checking(options, executor)
         self._kept = PayloadKeeper()
         self._crew: Crew | Remote
         if executor is None:
@@ -544,6 +544,17 @@ def _cubes(batch: _CaptureBatch, arrays: Arrays) -> CubeMapBatch:
     return CubeMapBatch(
         arrays[0], outputs=dict(zip(names, arrays[1:], strict=True)), encoding=batch.encoding
     )
+
+
+def _checking(options: dict[str, Any], executor: Executor | None) -> Renderer:
+    """Make the renderer that checks arguments."""
+    try:
+        return Renderer(**options)
+    except ContextError:
+        if executor is None:
+            raise
+        # Where an executor draws there may be a GPU, and here none.
+        return Renderer(**{**options, "device": "software"})
 
 
 def _follows(camera: Camera | StereoCamera) -> bool:
