@@ -159,10 +159,10 @@ def memory_marks(count: int) -> Section:
     section = Section("scenes", "memory of capture_scenes by two workers")
     with ExitStack() as stack:
         program = _started(stack, SCENES)
-        found = _call(program, "memory", count=count, each=count // 10)
+        found = _call(program, "memory", count=count)
     memory = found["memory"]
     grown = [memory[-1][at] - memory[1][at] for at in range(len(memory[0]))]
-    what = f"{count:,} scenes, after the first {count // 5:,}: "
+    what = f"{count:,} scenes, the last fifth over the second: "
     section.marks = [
         Mark(what + "the caller", grown[0], 1.0, unit="MiB more"),
         Mark(what + "the workers", max(grown[1:]), 1.0, unit="MiB more"),

@@ -131,17 +131,25 @@ class Scenes:
     def __init__(self) -> None:
         self.pool = cc.Pool(workers=2)
 
-    def memory(self, count: int, each: int) -> dict[str, Any]:
-        """MiB of this process, without what is mapped, and of the workers, after each so many scenes."""
+    def memory(self, count: int) -> dict[str, Any]:
+        """MiB of the caller and the workers, without shared memory, at each fifth of one call, and what is left."""
         names = set(Path("/dev/shm").iterdir())
-        found = []
-        for _ in range(0, count, each):
-            batch = self.pool.capture_scenes(scene, each, size=2, progress=False)
-            del batch
-            found.append([_own(os.getpid()), *map(_own, processes(self.pool))])
-        left = sum(
-            "memfd:cubecam" in line for line in Path("/proc/self/maps").read_text().splitlines()
+        found: list[list[float]] = [[0.0] * 3 for _ in range(5)]
+        drawing = threading.Thread(
+            target=self.pool.capture_scenes,
+            args=(scene, count),
+            kwargs={"size": 2, "progress": False},
         )
+        drawing.start()
+        while drawing.is_alive():
+            for running in list(self.pool._crew._calls):  # type: ignore[union-attr]
+                fifth = found[min(5 * running.taken // running.call.pieces, 4)]
+                now = [_own(os.getpid()), *map(_own, processes(self.pool))]
+                fifth[:] = map(max, fifth, now)
+                del running  # it holds the result
+            time.sleep(0.05)
+        lines = Path("/proc/self/maps").read_text().splitlines()
+        left = sum("memfd:cubecam" in line for line in lines)
         new = [path.name for path in set(Path("/dev/shm").iterdir()) - names]
         self.pool.close()
         return {"memory": found, "mappings": left, "files": new}

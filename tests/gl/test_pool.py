@@ -4,6 +4,7 @@ import concurrent.futures
 import gc
 import multiprocessing
 import os
+import pickle
 import re
 import signal
 import subprocess
@@ -359,6 +360,16 @@ def test_what_kills_every_worker(pool):
     assert len(pool.capture_many(boxes(), places(5), SIZE)) == 5
 
 
+def test_workers_that_cannot_start(monkeypatch, capfd):
+    monkeypatch.setattr(crews, "_WORKER", "cubecam.pool.worker:absent")
+    with (
+        cc.Pool(workers=1, device=DEVICE) as pool,
+        pytest.raises(cc.Error, match=r"expected worker processes to start, .*\(the status 1, "),
+    ):
+        pool.capture_many(boxes(), places(5), SIZE)
+    assert "absent" in capfd.readouterr().err
+
+
 def test_what_a_worker_raises(pool):
     with pytest.raises(LookupError, match="no scene has the number 7") as caught:
         pool.capture_scenes(pool_scenes.failing, 40, size=SIZE)
@@ -482,6 +493,8 @@ def test_nothing_is_left_of_a_pool():
     assert len(children() - before) >= 2
     batch = pool.capture_many(boxes(), places(4), SIZE)
     assert repr(pool) == "Pool(workers=2)"
+    with pytest.raises(TypeError, match=r"cannot pickle a cubecam\.Pool"):
+        pickle.dumps(pool)
     pool.close()
     pool.close()
     assert repr(pool) == "Pool(workers=2, closed)"

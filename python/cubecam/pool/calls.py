@@ -15,7 +15,6 @@ class Piece:
 
     def __init__(self, number: int, first: int, count: int) -> None:
         self.number, self.first, self.count = number, first, count
-        self.endings: list[str] = []  # of processes that drew it
 
     def __repr__(self) -> str:
         last = self.first + self.count - 1

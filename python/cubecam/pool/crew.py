@@ -27,6 +27,8 @@ __all__ = ["CLOSED", "Crew"]
 CLOSED = "the pool is closed: expected an open Pool"
 _FORKED = "this pool belongs to the parent process: expected a Pool made in this one, or a call before the fork"
 
+_WORKER = "cubecam.pool.worker:serve"
+
 #: How often a piece is given to another process after the one that drew it has died.
 _TRIES = 3
 
@@ -192,6 +194,7 @@ class _Seat:
         self.draws: _Running | None = None
         self._loaded: set[str] = set()  # tokens of payloads
         self._opened: set[int] = set()  # numbers of calls
+        self._ready = False  # whether the process has begun to read
         self.thread = threading.Thread(target=self._work, daemon=True, name="cubecam pool")
         self._start()
 
@@ -203,7 +206,7 @@ class _Seat:
     def _start(self) -> None:
         crew = self._crew
         process = Process(
-            "cubecam.pool.worker:serve",
+            _WORKER,
             crew.environment,
             owner="Pool",
             instead="give it an executor, or use a Renderer",
@@ -211,7 +214,7 @@ class _Seat:
         process.channel.send(pickle.dumps(crew.options, protocol=5))
         with crew.changed:
             self.process = process
-            self._loaded, self._opened = set(), set()
+            self._loaded, self._opened, self._ready = set(), set(), False
             if crew.closed is not None:
                 process.kill()
 
@@ -270,6 +273,7 @@ class _Seat:
 
     def _drawn(self, running: _Running, piece: Piece) -> Answer | None:
         """Let the process draw a piece; None if the call has ended meanwhile."""
+        endings: tuple[list[str], list[str]] = ([], [])  # before it could draw, and while it drew
         while not running.ended:
             if self.process is not None and not self.process.lives:  # since the last piece
                 self.end()
@@ -278,21 +282,18 @@ class _Seat:
             assert self.process is not None
             if not self._order(running, piece):
                 return None
+            if not self._ready:
+                self._ready = self.process.channel.receive() is not None
             answer = self.process.channel.receive()
             if answer is not None:
                 found: Answer = pickle.loads(answer[0])
                 return found
             process, self.process = self.process, None
-            piece.endings.append(ending_of(process.status()))
+            endings[self._ready].append(ending_of(process.status()))
             process.channel.close()
             if self._crew.closed is not None or running.ended:
                 return None
-            if len(piece.endings) == _TRIES:
-                raise Error(
-                    f"{running.call.title} {piece!r}: expected a worker process to draw them, got the "
-                    f"end of {_TRIES} that tried ({', '.join(piece.endings)}); SIGKILL may come from "
-                    "the system where memory is short, SIGSEGV from the driver"
-                )
+            _check_tries(running.call.title, piece, *endings)
         return None
 
     def _order(self, running: _Running, piece: Piece) -> bool:
@@ -338,6 +339,21 @@ class _Seat:
             elif answer is not None:
                 running.done[piece.number] = answer[1]
             self._crew.changed.notify_all()
+
+
+def _check_tries(title: str, piece: Piece, began: list[str], drew: list[str]) -> None:
+    """Give up a piece that has ended several processes, and processes that end before they draw."""
+    if len(drew) == _TRIES:
+        raise Error(
+            f"{title} {piece!r}: expected a worker process to draw them, got the end of {_TRIES} that "
+            f"tried ({', '.join(drew)}); SIGKILL may come from the system where memory is short, "
+            "SIGSEGV from the driver"
+        )
+    if len(began) == _TRIES:
+        raise Error(
+            f"Pool: expected worker processes to start, got the end of {_TRIES} before they could draw "
+            f"({', '.join(began)}); what they wrote to the error stream says why"
+        )
 
 
 _crews: weakref.WeakSet[Crew] = weakref.WeakSet()

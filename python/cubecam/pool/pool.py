@@ -165,6 +165,9 @@ class Pool:
     ) -> None:
         self.close()
 
+    def __reduce__(self) -> tuple[object, ...]:
+        raise TypeError("cannot pickle a cubecam.Pool")
+
     def __repr__(self) -> str:
         return f"Pool(workers={self._workers}{', closed' * (self._renderer is None)})"
 

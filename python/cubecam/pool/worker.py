@@ -122,6 +122,7 @@ def serve(channel: Channel) -> None:
     """Be a worker, until the channel ends: then the process ends at once, whatever it draws."""
     messages: queue.SimpleQueue[Message] = queue.SimpleQueue()
     threading.Thread(target=_read, args=(channel, messages), daemon=True).start()
+    channel.send(b"ready")
     options, _ = messages.get()
     desk = Desk(pickle.loads(options))
     memory: dict[int, Arrays] = {}
