@@ -46,6 +46,7 @@ PYTHON_ORDER = (
     "_late",
     "_warnings",
     "_progress",  # a bar in the terminal
+    "_processes",  # other Python processes that work for this one
     "_futures",  # calls of a renderer that are drawn later
     "data",  # the packaged files and their list
     "_nodes",  # which nodes are shown
@@ -56,6 +57,7 @@ PYTHON_ORDER = (
     "pictures",
     "_array_protocol",
     "batches",  # many captures and frames in one call
+    "pool",  # the same by several processes
     "plot",
     "navigation",
     "optics",
