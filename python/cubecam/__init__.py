@@ -32,6 +32,7 @@ from ._late import late_names
 if TYPE_CHECKING:
     from . import doctor, explore, plot, truth
     from ._futures import PictureFuture
+    from ._scene_hash import scene_hash
     from ._warnings import ConventionWarning, RendererWarning, SceneWarning
     from .batches.captures import capture_scenes
     from .batches.cubemaps import CubeMapBatch
@@ -49,6 +50,7 @@ else:
     __getattr__, __dir__ = late_names(
         {
             "_futures": ["PictureFuture"],
+            "_scene_hash": ["scene_hash"],
             "_warnings": ["ConventionWarning", "RendererWarning", "SceneWarning"],
             "batches.captures": ["capture_scenes"],
             "batches.cubemaps": ["CubeMapBatch"],
@@ -103,6 +105,7 @@ __all__ = [
     "sample_data",
     "save_animation",
     "save_image",
+    "scene_hash",
     "schlick",
     "to_screen",
     "truth",
