@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from .batches.captures import capture_scenes
     from .batches.cubemaps import CubeMapBatch
     from .batches.frames import FrameBatch
+    from .batches.store import open_batch
     from .data import sample_data
     from .io.cubemaps import load_cubemap, load_environment
     from .io.images import load_image, save_animation, save_image
@@ -55,6 +56,7 @@ else:
             "batches.captures": ["capture_scenes"],
             "batches.cubemaps": ["CubeMapBatch"],
             "batches.frames": ["FrameBatch"],
+            "batches.store": ["open_batch"],
             "data": ["sample_data"],
             "io.cubemaps": ["load_cubemap", "load_environment"],
             "io.images": ["load_image", "save_animation", "save_image"],
@@ -99,6 +101,7 @@ __all__ = [
     "load_image",
     "load_mesh",
     "load_scene",
+    "open_batch",
     "plot",
     "reflect",
     "refract",

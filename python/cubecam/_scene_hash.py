@@ -122,7 +122,10 @@ class _Description:
     def _contents(self, thing: Any) -> bytes:
         function, arguments, *states = thing.__reduce__()
         classes = (base for base in type(thing).__mro__ if base.__module__ == "cubecam")
-        parts = [next(classes).__name__, *(part for part in arguments if not isinstance(part, type))]
+        parts = [
+            next(classes).__name__,
+            *(part for part in arguments if not isinstance(part, type)),
+        ]
         if isinstance(function, operator.methodcaller):  # of nodes and of channels of animations
             parts += function.__reduce__()[1]
         return self.of([*parts, *states])
