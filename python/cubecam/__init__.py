@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from .io.scenes import load_scene
     from .io.screen import ClippingWarning, to_screen
     from .optics import brdf, fresnel, reflect, refract, schlick
+    from .pool.pool import Pool
     from .viewer.viewer import Viewer
 else:
     # What is written in Python needs numpy, which takes more time to load than the core: `cubecam info` does without.
@@ -64,6 +65,7 @@ else:
             "io.scenes": ["load_scene"],
             "io.screen": ["ClippingWarning", "to_screen"],
             "optics": ["brdf", "fresnel", "reflect", "refract", "schlick"],
+            "pool.pool": ["Pool"],
             "viewer.viewer": ["Viewer"],
         },
         modules=[
@@ -87,6 +89,7 @@ __all__ = [
     "CubeMapBatch",
     "FrameBatch",
     "PictureFuture",
+    "Pool",
     "RendererWarning",
     "SceneWarning",
     "Viewer",

@@ -47,6 +47,7 @@ PYTHON_ORDER = (
     "_warnings",
     "_progress",  # a bar in the terminal
     "_futures",  # calls of a renderer that are drawn later
+    "_processes",  # other Python processes that work for this one
     "data",  # the packaged files and their list
     "_nodes",  # which nodes are shown
     "_rotations",  # matrices of quaternions
@@ -57,6 +58,7 @@ PYTHON_ORDER = (
     "pictures",
     "_array_protocol",
     "batches",  # many captures and frames in one call
+    "pool",  # the same by several processes
     "plot",
     "navigation",
     "optics",
