@@ -12,13 +12,14 @@ import numpy as np
 import numpy.typing as npt
 
 from .._checks import text_of, whole_number
-from .._core import Node, Renderer, Scene, _CaptureBatch
+from .._core import Node, Scene, _CaptureBatch
 from .._scene_hash import scene_hash
 from ..batches.captures import check_batch_room, floats_of
 from ..batches.cubemaps import CubeMapBatch
 from ..batches.labelled import Labels, labels_of
 from ..pool.memory import Layout
 from ..pool.work import Captures, cube_layout
+from .worker import renderer_of_process
 
 __all__ = ["Plan", "plan_of"]
 
@@ -90,7 +91,7 @@ def plan_of(
     places_of_chunk = whole_number(chunk, "chunk", 1)
     left_out = _listed(exclude)
     options = {**options, "outputs": _listed(options["outputs"])}
-    with Renderer() as renderer:
+    with renderer_of_process() as renderer:
         batch = _CaptureBatch(renderer, scene, positions, rotations, exclude=left_out, **options)
         if batch.in_order:
             raise ValueError(
