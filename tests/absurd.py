@@ -10,9 +10,9 @@ import decimal
 import enum
 import fractions
 import inspect
-import sys
 import operator
 import pathlib
+import sys
 import typing
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

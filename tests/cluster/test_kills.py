@@ -53,14 +53,20 @@ def whole(want, tmp_path_factory):
     return work.files(store)
 
 
-@pytest.fixture(scope="module")
-def local():
+@contextlib.contextmanager
+def cluster_of(workers, threads=1):
     with (
         distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0"
+            n_workers=workers, threads_per_worker=threads, dashboard_address=":0"
         ) as made,
         distributed.Client(made) as client,
     ):
+        yield client
+
+
+@pytest.fixture(scope="module")
+def local():
+    with cluster_of(2) as client:
         yield client
 
 
@@ -83,12 +89,7 @@ def duration(call):
 
 def test_two_workers_one_a_pool_and_none_write_the_same_bytes(want, whole, local, tmp_path):
     work.write(tmp_path / "two.zarr", client=local)
-    with (
-        distributed.LocalCluster(
-            n_workers=1, threads_per_worker=2, processes=True, dashboard_address=":0"
-        ) as made,
-        distributed.Client(made) as client,
-    ):
+    with cluster_of(1, threads=2) as client:
         work.write(tmp_path / "one.zarr", client=client)
     work.write(tmp_path / "workers.zarr", workers=2)
     with cc.Pool(workers=1) as pool:
@@ -127,29 +128,36 @@ def test_arrays_of_a_cluster(want, local):
     future.cancel()
 
 
-def test_kill_a_worker(want, whole, local, tmp_path):
+def test_kill_a_worker(want, whole, tmp_path):
     """The nanny starts another one, and the call goes on by itself."""
     rng = random.Random(1)
-    took = duration(lambda: work.write(tmp_path / "first.zarr", client=local))
     killed = 0
-    for number in range(TRIES):
-        store = tmp_path / f"{number}.zarr"
-        local.wait_for_workers(2, timeout=60)
-        pids = list(local.run(os.getpid).values())
-        victim, seen = rng.choice(pids), list[np.ndarray]()
+    with contextlib.ExitStack() as stack:
+        client = stack.enter_context(cluster_of(2))
+        took = duration(lambda: work.write(tmp_path / "first.zarr", client=client))
+        for number in range(TRIES):
+            store = tmp_path / f"{number}.zarr"
+            try:
+                client.wait_for_workers(2, timeout=10)
+            except (
+                distributed.TimeoutError
+            ):  # a nanny gives up a worker that was killed as it began
+                stack.close()
+                client = stack.enter_context(cluster_of(2))
+            victim, seen = rng.choice(list(client.run(os.getpid).values())), list[np.ndarray]()
 
-        def kill(pid=victim, store=store, seen=seen):
-            seen.append(work.finished(store))
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(pid, signal.SIGKILL)
+            def kill(pid=victim, store=store, seen=seen):
+                seen.append(work.finished(store))
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(pid, signal.SIGKILL)
 
-        timer = threading.Timer(rng.uniform(0, took), kill)
-        timer.start()
-        work.write(store, client=local)
-        timer.join(30)
-        work.check(store, want, seen[0])
-        assert work.files(store) == whole, number
-        killed += not seen[0].all()
+            timer = threading.Timer(rng.uniform(0, took), kill)
+            timer.start()
+            work.write(store, client=client)
+            timer.join(30)
+            work.check(store, want, seen[0])
+            assert work.files(store) == whole, number
+            killed += not seen[0].all()
     print(f"{killed} of {TRIES} kills of a worker before the end")
     assert killed >= TRIES / 3
 
