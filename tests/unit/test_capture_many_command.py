@@ -33,7 +33,7 @@ def script(tmp_path):
 
 
 def scene():
-    names = {}
+    names: dict = {}
     exec(SCRIPT, names)
     return names["scene"]
 

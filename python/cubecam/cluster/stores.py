@@ -227,6 +227,8 @@ def _check_client(client: Any) -> None:
         ) from error
     if not isinstance(client, Client):
         raise TypeError(f"client: expected a Client of distributed or None, got {text_of(client)}")
+    if client.asynchronous:
+        raise ValueError("client: expected one with asynchronous=False, got one for coroutines")
 
 
 # ----- the store
