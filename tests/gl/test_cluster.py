@@ -463,3 +463,43 @@ def test_a_renderer_is_forgotten_in_a_fork():
     if pid == 0:
         os._exit(0 if worker._desk._renderer is None and worker._desk._lock is not before else 1)
     assert os.waitpid(pid, 0)[1] == 0
+
+
+def test_each_file_of_a_chunk_is_written_once_and_the_ledger_last(scene, tmp_path, monkeypatch):
+    """One write of zarr is one file, which gets its name when it is whole: docs/adr/0037 builds upon that."""
+    written = []
+    put = zarr.storage.LocalStore.set
+
+    async def recorded(self, key, value):
+        written.append(key)
+        await put(self, key, value)
+
+    monkeypatch.setattr(zarr.storage.LocalStore, "set", recorded)
+    write(scene, tmp_path / "a.zarr")
+    chunks = [key for key in written if key.split("/")[0] in ("color", "distance", "id", "drawn")]
+    chunks = [key for key in chunks if "/c/" in key]
+    want = [
+        f"{name}/c/{number}" + "/0" * axes
+        for number in range(3)
+        for name, axes in (("color", 4), ("distance", 3), ("id", 3), ("drawn", 0))
+    ]
+    assert chunks == want
+    assert written[-1] == "zarr.json"  # the attribute "complete"
+
+
+def test_zarr_gives_a_file_its_name_when_it_is_whole(tmp_path, monkeypatch):
+    """A process that ends while it writes leaves the file that was there, and one with another name."""
+    array = zarr.create_array(tmp_path / "a.zarr", shape=(4,), chunks=(4,), dtype="i4")
+    array[:] = 1
+    replace = type(tmp_path).replace
+
+    def broken(self, target):
+        if self.suffix == ".partial":
+            raise Ended
+        return replace(self, target)
+
+    monkeypatch.setattr(type(tmp_path), "replace", broken)
+    with pytest.raises(Ended):
+        array[:] = 2
+    monkeypatch.undo()
+    assert (zarr.open_array(tmp_path / "a.zarr", mode="r")[:] == 1).all()
