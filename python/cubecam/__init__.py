@@ -30,12 +30,14 @@ from ._core import __version__
 from ._late import late_names
 
 if TYPE_CHECKING:
-    from . import doctor, explore, plot, truth
+    from . import cluster, doctor, explore, plot, truth
     from ._futures import PictureFuture
+    from ._scene_hash import scene_hash
     from ._warnings import ConventionWarning, RendererWarning, SceneWarning
     from .batches.captures import capture_scenes
     from .batches.cubemaps import CubeMapBatch
     from .batches.frames import FrameBatch
+    from .batches.store import open_batch
     from .data import sample_data
     from .io.cubemaps import load_cubemap, load_environment
     from .io.images import load_image, save_animation, save_image
@@ -50,10 +52,12 @@ else:
     __getattr__, __dir__ = late_names(
         {
             "_futures": ["PictureFuture"],
+            "_scene_hash": ["scene_hash"],
             "_warnings": ["ConventionWarning", "RendererWarning", "SceneWarning"],
             "batches.captures": ["capture_scenes"],
             "batches.cubemaps": ["CubeMapBatch"],
             "batches.frames": ["FrameBatch"],
+            "batches.store": ["open_batch"],
             "data": ["sample_data"],
             "io.cubemaps": ["load_cubemap", "load_environment"],
             "io.images": ["load_image", "save_animation", "save_image"],
@@ -65,6 +69,7 @@ else:
             "viewer.viewer": ["Viewer"],
         },
         modules=[
+            "cluster",
             "demo",
             "doctor",
             "examples",
@@ -92,6 +97,7 @@ __all__ = [
     "__version__",
     "brdf",
     "capture_scenes",
+    "cluster",
     "doctor",
     "explore",
     "fresnel",
@@ -100,12 +106,14 @@ __all__ = [
     "load_image",
     "load_mesh",
     "load_scene",
+    "open_batch",
     "plot",
     "reflect",
     "refract",
     "sample_data",
     "save_animation",
     "save_image",
+    "scene_hash",
     "schlick",
     "to_screen",
     "truth",

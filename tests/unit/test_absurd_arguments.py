@@ -9,6 +9,7 @@ and the message says "expected ..., got ...".
 import contextlib
 import functools
 import itertools
+import sys
 import warnings
 from typing import Any
 
@@ -16,7 +17,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from cubecam import demo, explore, navigation, plot, truth
+from cubecam import cluster, demo, explore, navigation, plot, truth
 from cubecam.viewer.cube_view import CubeView
 from cubecam.viewer.viewer import Viewer
 from tests import absurd
@@ -239,6 +240,7 @@ NEEDED: dict[str, Any] = {
     "load_image": lambda: {"path": "image.png"},
     "load_mesh": lambda: {"path": "mesh.obj"},
     "load_scene": lambda: {"path": "scene.glb"},
+    "open_batch": lambda: {"store": "batch.zarr"},
     "save_animation": lambda: {"path": "a.gif", "frames": [PICTURE]},
     "save_image": lambda: {"path": "a.png", "pixels": PICTURE},
     "to_screen": lambda: {"picture": PICTURE},
@@ -254,6 +256,15 @@ NEEDED: dict[str, Any] = {
     "plot.seam_steps": lambda: {"cube": FACES},
     "plot.seams": lambda: {"cube": FACES},
     "plot.vectors": lambda: {"field": FACES},
+    "cluster.capture_array": lambda: {"scene": cc.Scene(), "positions": [(0, 0, 0)], "size": 1},
+    "cluster.capture_dataset": lambda: {"scene": cc.Scene(), "positions": [(0, 0, 0)], "size": 1},
+    "cluster.capture_to_zarr": lambda: {
+        "scene": cc.Scene(),
+        "positions": [(0, 0, 0)],
+        "store": "new.zarr",
+        "size": 1,
+        "overwrite": True,
+    },
     "truth.capture": lambda: {"scene": cc.Scene(), "size": 2, "samples": 1},
     "truth.compare": lambda: {"picture": PICTURE, "truth": PICTURE},
     "truth.render": lambda: {
@@ -290,7 +301,7 @@ NEEDED: dict[str, Any] = {
 SLOW = (
     "demo.run", "demo.build_scene", "Scene.show", "CubeMap.show", "explore.reflection", "explore.layout", "Renderer",
     "Pool", "Viewer", "CubeView", "ReflectionView", "LayoutView", "load_environment", "plot.", "CubeMap.save_for",
-    "Frame.save", "save_animation", "CubeMap.save",
+    "Frame.save", "save_animation", "CubeMap.save", "cluster.",
 )  # fmt: skip
 
 
@@ -315,6 +326,7 @@ def function_of(name, renderer):
         "plot": plot,
         "navigation": navigation,
         "explore": explore,
+        "cluster": cluster,
         "demo": demo,
         "truth": truth,
     }
@@ -373,6 +385,8 @@ def files(tmp_path):
     cube().save(tmp_path / "cube.exr")
     (tmp_path / "mesh.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     cc.Scene().save(tmp_path / "scene.glb")
+    if sys.version_info >= (3, 11):
+        cc.CubeMapBatch(np.zeros((1, 6, 1, 1, 3), np.float32)).to_zarr(tmp_path / "batch.zarr")
 
 
 def failure(place, value, renderer):

@@ -52,12 +52,14 @@ PYTHON_ORDER = (
     "_nodes",  # which nodes are shown
     "_rotations",  # matrices of quaternions
     "_drawn_meshes",  # meshes with their morph targets and skins
+    "_scene_hash",  # what tells whether two scenes are equal
     "_grid_bake",  # what the nodes of a grid of probes capture
     "io",
     "pictures",
     "_array_protocol",
     "batches",  # many captures and frames in one call
     "pool",  # the same by several processes
+    "cluster",  # the same by many machines
     "plot",
     "navigation",
     "optics",
