@@ -2,7 +2,7 @@
 
     .venv/bin/python scripts/torch_cpu.py .venv/torch       then PYTHONPATH=.venv/torch .venv/bin/python ...
 
-The package index has PyTorch for Linux with CUDA alone: 0.5 GB, and 2.5 GB of NVIDIA's libraries, without which it cannot be
+The package index has PyTorch for Linux with CUDA alone: 0.5 GB, and 2.5 GB of libraries, without which it cannot be
 imported, although a CPU calls none of them. This script installs PyTorch without them and compiles small libraries with
 their names; each of their functions fails if it is called, and `torch.cuda.is_available()` is False.
 
