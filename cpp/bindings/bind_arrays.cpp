@@ -9,7 +9,35 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/typing.h>
 
+#include <cerrno>
+#include <cstddef>
 #include <string>
+#include <sys/mman.h>
+
+namespace {
+
+namespace py = pybind11;
+
+/// Maps a file of shared memory. Python's mmap would keep a descriptor for each mapping.
+py::array map_shared(int descriptor, std::size_t bytes) {
+    void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+    if (memory == MAP_FAILED) {
+        PyErr_SetFromErrno(PyExc_OSError);
+        throw py::error_already_set();
+    }
+    struct Mapping {
+        void* memory;
+        std::size_t bytes;
+    };
+    py::capsule owner(new Mapping{memory, bytes}, [](void* at) {
+        const auto* mapping = static_cast<Mapping*>(at);
+        munmap(mapping->memory, mapping->bytes);
+        delete mapping;
+    });
+    return {py::dtype::of<std::uint8_t>(), {static_cast<py::ssize_t>(bytes)}, memory, owner};
+}
+
+}  // namespace
 
 void bind_arrays(pybind11::module_& module) {
     namespace py = pybind11;
@@ -25,6 +53,15 @@ void bind_arrays(pybind11::module_& module) {
         "The value as an array. Raises TypeError for a masked array that hides values, also in "
         "lists "
         "and tuples, and ValueError for rows of unequal length.");
+    module.def(
+        "_map_shared",
+        [](int descriptor, std::size_t bytes)
+            ->bindings::Shown<"numpy.typing.NDArray[numpy.uint8]"> {
+                return map_shared(descriptor, bytes);
+            },
+        py::arg("descriptor"), py::arg("bytes"),
+        "The memory of a file, (bytes,) uint8: what is written there, all processes see. It is "
+        "unmapped when no array needs it.");
     module.def(
         "_is_whole_number", [](const py::object& value) { return whole_number(value).has_value(); },
         py::arg("value"), "Whether a value is an int of Python or numpy, and no bool.");

@@ -29,6 +29,8 @@ namespace cubecam::bindings {
 namespace {
 
 using OutputKinds = Shown<"list[tuple[str, int, numpy.dtype[numpy.generic]]]">;
+using FrameArrays = Shown<"tuple[tuple[int, int], numpy.dtype[numpy.generic] | None, "
+                          "list[tuple[str, int, numpy.dtype[numpy.generic]]]]">;
 using ArraysOfBatch = py::typing::Tuple<Pixels, py::typing::List<OutputArray>>;
 using CameraList = OneOf<py::typing::Iterable<SeenBy>>;
 
@@ -88,7 +90,7 @@ std::byte* memory_of(const py::array& array, const char* name, const py::dtype& 
                      const std::vector<py::ssize_t>& cube) {
     const bool fits = array.ndim() == static_cast<py::ssize_t>(cube.size() + 1) &&
                       std::equal(cube.begin(), cube.end(), array.shape() + 1);
-    if (!fits || !array.dtype().is(dtype) || !array.writeable() ||
+    if (!fits || !array.dtype().equal(dtype) || !array.writeable() ||
         (array.flags() & py::array::c_style) == 0) {
         throw py::value_error(std::string(name) +
                               ": expected a writable C-contiguous array of the "
@@ -171,6 +173,50 @@ make_renders(const std::shared_ptr<Renderer>& renderer, const Scene& scene,
     return made;
 }
 
+/// Checks what can be said of all frames before one is drawn, and gives what they will hold.
+FrameShape shape_of(const RenderBatch& batch) {
+    for (const auto& camera : batch.cameras) {
+        (void)FrameRequest{batch.scene, camera, batch.options}.check(batch.renderer->info());
+    }
+    return frame_shape(*batch.scene, batch.options);
+}
+
+py::list described(const std::vector<OutputKind>& outputs) {
+    py::list list;
+    for (const OutputKind& kind : outputs) {
+        list.append(py::make_tuple(kind.name, kind.channels, numpy_dtype(kind.type)));
+    }
+    return list;
+}
+
+/// Whether a probe of the scene, or of those that its render textures show, is as `is` says.
+template <class Is>
+bool any_probe(const SceneSnapshot& scene, Is is) {
+    for (std::size_t number = 0; number <= scene.others.size(); ++number) {
+        const auto& probes = scene.scene(number).probes;
+        if (std::any_of(probes.begin(), probes.end(),
+                        [&](const ProbeSnapshot& probe) { return is(probe.value); })) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Whether the pictures of a batch depend on those before them: a probe is drawn in parts.
+template <class Batch>
+bool in_order(const Batch& batch) {
+    return any_probe(*batch.scene, [](const ProbeValue& probe) {
+        return probe.faces_per_frame < face_count && probe.update != ProbeUpdate::manual;
+    });
+}
+
+/// Whether a probe may keep what it was drawn from, although the scene has changed since.
+bool keeps_pictures(const CaptureBatch& batch) {
+    return in_order(batch) || any_probe(*batch.scene, [](const ProbeValue& probe) {
+               return probe.update != ProbeUpdate::on_change;
+           });
+}
+
 PyFrame render(RenderBatch& batch, std::size_t number) {
     return draw_now(*batch.renderer,
                     FrameRequest{batch.scene, batch.cameras.at(number), batch.options});
@@ -203,13 +249,12 @@ void bind_batches(pybind11::module_& module) {
                                })
         .def_property_readonly(
             "outputs",
-            [](const CaptureBatch& self) -> OutputKinds {
-                py::list list;
-                for (const OutputKind& kind : self.shape.outputs) {
-                    list.append(py::make_tuple(kind.name, kind.channels, numpy_dtype(kind.type)));
-                }
-                return list;
-            })
+            [](const CaptureBatch& self) -> OutputKinds { return described(self.shape.outputs); })
+        .def_property_readonly("in_order", &in_order<CaptureBatch>,
+                               "bool: whether its pictures depend on those before them.")
+        .def_property_readonly("keeps_pictures", &keeps_pictures,
+                               "bool: whether its pictures depend on what was drawn of the scene "
+                               "before.")
         .def("allocate", &allocate, py::arg("count"))
         .def("draw", &draw, py::arg("first"), py::arg("faces"), py::arg("outputs"));
     declare<RenderBatch>(module, "_RenderBatch", "A scene at one moment, and cameras.")
@@ -218,5 +263,24 @@ void bind_batches(pybind11::module_& module) {
              py::arg("samples"), py::arg("exposure"), py::arg("tonemap"), py::arg("encode"),
              py::arg("effects"), py::arg("depth_format"), py::arg("screen_reflections"))
         .def("__len__", [](const RenderBatch& self) { return self.cameras.size(); })
+        .def_property_readonly("in_order", &in_order<RenderBatch>,
+                               "bool: whether its pictures depend on those before them.")
+        .def_property_readonly("encoding",
+                               [](const RenderBatch& self) -> EncodingNow {
+                                   return to_string(
+                                       frame_shape(*self.scene, self.options).encoding);
+                               })
+        .def(
+            "shape",
+            [](const RenderBatch& self) -> FrameArrays {
+                const FrameShape shape = shape_of(self);
+                const FrameOptions& options = self.options;
+                return py::make_tuple(
+                    py::make_tuple(options.width, options.height),
+                    options.color ? py::object(numpy_dtype(dtype_of(options.format))) : py::none(),
+                    described(shape.outputs));
+            },
+            "The size, the dtype of colours or None, and the outputs of all frames; checks what "
+            "can be known before one is drawn.")
         .def("draw", &render, py::arg("number"));
 }

@@ -32,10 +32,12 @@ from ._late import late_names
 if TYPE_CHECKING:
     from . import doctor, explore, plot, truth
     from ._futures import PictureFuture
+    from ._scene_hash import scene_hash
     from ._warnings import ConventionWarning, RendererWarning, SceneWarning
     from .batches.captures import capture_scenes
     from .batches.cubemaps import CubeMapBatch
     from .batches.frames import FrameBatch
+    from .batches.store import open_batch
     from .data import sample_data
     from .io.cubemaps import load_cubemap, load_environment
     from .io.images import load_image, save_animation, save_image
@@ -43,16 +45,19 @@ if TYPE_CHECKING:
     from .io.scenes import load_scene
     from .io.screen import ClippingWarning, to_screen
     from .optics import brdf, fresnel, reflect, refract, schlick
+    from .pool.pool import Pool
     from .viewer.viewer import Viewer
 else:
     # What is written in Python needs numpy, which takes more time to load than the core: `cubecam info` does without.
     __getattr__, __dir__ = late_names(
         {
             "_futures": ["PictureFuture"],
+            "_scene_hash": ["scene_hash"],
             "_warnings": ["ConventionWarning", "RendererWarning", "SceneWarning"],
             "batches.captures": ["capture_scenes"],
             "batches.cubemaps": ["CubeMapBatch"],
             "batches.frames": ["FrameBatch"],
+            "batches.store": ["open_batch"],
             "data": ["sample_data"],
             "io.cubemaps": ["load_cubemap", "load_environment"],
             "io.images": ["load_image", "save_animation", "save_image"],
@@ -60,6 +65,7 @@ else:
             "io.scenes": ["load_scene"],
             "io.screen": ["ClippingWarning", "to_screen"],
             "optics": ["brdf", "fresnel", "reflect", "refract", "schlick"],
+            "pool.pool": ["Pool"],
             "viewer.viewer": ["Viewer"],
         },
         modules=[
@@ -83,6 +89,7 @@ __all__ = [
     "CubeMapBatch",
     "FrameBatch",
     "PictureFuture",
+    "Pool",
     "RendererWarning",
     "SceneWarning",
     "Viewer",
@@ -97,12 +104,14 @@ __all__ = [
     "load_image",
     "load_mesh",
     "load_scene",
+    "open_batch",
     "plot",
     "reflect",
     "refract",
     "sample_data",
     "save_animation",
     "save_image",
+    "scene_hash",
     "schlick",
     "to_screen",
     "truth",

@@ -10045,6 +10045,18 @@ class _CaptureBatch:
     @property
     def encoding(self) -> Encoding: ...
     @property
+    def in_order(self) -> bool:
+        """
+        bool: whether its pictures depend on those before them.
+        """
+
+    @property
+    def keeps_pictures(self) -> bool:
+        """
+        bool: whether its pictures depend on what was drawn of the scene before.
+        """
+
+    @property
     def most_cubes(self) -> int: ...
     @property
     def outputs(self) -> list[tuple[str, int, np.dtype[np.generic]]]: ...
@@ -10076,6 +10088,22 @@ class _RenderBatch:
     def __len__(self: _RenderBatch) -> int: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def draw(self: _RenderBatch, number: typing.SupportsInt | typing.SupportsIndex) -> Frame: ...
+    def shape(
+        self: _RenderBatch,
+    ) -> tuple[
+        tuple[int, int], np.dtype[np.generic] | None, list[tuple[str, int, np.dtype[np.generic]]]
+    ]:
+        """
+        The size, the dtype of colours or None, and the outputs of all frames; checks what can be known before one is drawn.
+        """
+
+    @property
+    def encoding(self) -> Encoding: ...
+    @property
+    def in_order(self) -> bool:
+        """
+        bool: whether its pictures depend on those before them.
+        """
 
 def _at_interrupt_check(function: object) -> None:
     """
@@ -10135,6 +10163,14 @@ def _is_whole_number(value: object) -> bool:
 def _kept_taps() -> int:
     """
     Bytes of the filter's taps that are kept, for tests.
+    """
+
+def _map_shared(
+    descriptor: typing.SupportsInt | typing.SupportsIndex,
+    bytes: typing.SupportsInt | typing.SupportsIndex,
+) -> np.typing.NDArray[np.uint8]:
+    """
+    The memory of a file, (bytes,) uint8: what is written there, all processes see. It is unmapped when no array needs it.
     """
 
 def _memory_left(root: str = "/") -> tuple[float, str]:

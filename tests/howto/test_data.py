@@ -15,8 +15,27 @@ from tests.howto.pages import printed
 
 
 @pytest.mark.slow
+@pytest.mark.skipif(sys.version_info < (3, 11), reason="zarr 3 needs Python 3.11")
 class TestBulkData:
     NAME = "docs/howto/bulk_data.md"
+
+    def test_the_batch_comes_back_from_its_store(self, pages):
+        folder, scope = pages(self.NAME)
+        batch, whole = scope["batch"], scope["whole"]
+        np.testing.assert_array_equal(whole.faces, batch.faces)
+        np.testing.assert_array_equal(whole.distance, batch.distance)
+        np.testing.assert_array_equal(whole.positions, scope["places"])
+        np.testing.assert_array_equal(scope["light"], batch.faces[10:20, :, ::2, ::2, :3])
+        want = batch.faces[:, 2, :, :, :3].mean((1, 2), dtype=np.float64)
+        np.testing.assert_allclose(scope["above"], want, rtol=1e-4)
+        right = scope["places"][:, 0] > 0
+        assert scope["near"].item() == batch.distance[right].min()
+        group = zarr.open_group(folder / "probes.zarr", mode="r")
+        attributes = {**group.attrs, **dict(group["color"].attrs), **dict(group["x"].attrs)}
+        table = text_of(self.NAME).partition("| in the store |")[2].partition("\n\n")[0]
+        for name in set(re.findall(r"`(\w+)`", "".join(table.splitlines()[-2:]))) - {"color"}:
+            assert name in attributes, name
+        assert {"color", "face", "channel", "x", "y", "z"} <= set(group)
 
     def test_the_store_holds_the_captures(self, pages):
         folder, scope = pages(self.NAME)

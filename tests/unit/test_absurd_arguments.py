@@ -230,6 +230,7 @@ NEEDED: dict[str, Any] = {
     "load_image": lambda: {"path": "image.png"},
     "load_mesh": lambda: {"path": "mesh.obj"},
     "load_scene": lambda: {"path": "scene.glb"},
+    "open_batch": lambda: {"store": "batch.zarr"},
     "save_animation": lambda: {"path": "a.gif", "frames": [PICTURE]},
     "save_image": lambda: {"path": "a.png", "pixels": PICTURE},
     "to_screen": lambda: {"picture": PICTURE},

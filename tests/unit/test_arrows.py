@@ -47,15 +47,18 @@ PYTHON_ORDER = (
     "_warnings",
     "_progress",  # a bar in the terminal
     "_futures",  # calls of a renderer that are drawn later
+    "_processes",  # other Python processes that work for this one
     "data",  # the packaged files and their list
     "_nodes",  # which nodes are shown
     "_rotations",  # matrices of quaternions
     "_drawn_meshes",  # meshes with their morph targets and skins
+    "_scene_hash",  # what tells whether two scenes are equal
     "_grid_bake",  # what the nodes of a grid of probes capture
     "io",
     "pictures",
     "_array_protocol",
     "batches",  # many captures and frames in one call
+    "pool",  # the same by several processes
     "plot",
     "navigation",
     "optics",

@@ -63,6 +63,8 @@ BY_POSITION = {
     "load_image": ["path"],
     "load_mesh": ["path"],
     "load_scene": ["path"],
+    "open_batch": ["store"],
+    "scene_hash": ["scene"],
     "load_cubemap": ["path"],
     "load_environment": ["path"],
     "save_image": ["path", "pixels"],

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/image/encoding.hpp"
 #include "cubecam/render/options.hpp"
 #include "cubecam/render/readback.hpp"
 #include "cubecam/scene/camera.hpp"
@@ -9,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace cubecam {
 
@@ -35,5 +37,13 @@ std::size_t check_call(const RendererInfo& info, const SceneSnapshot& scene,
                        const StereoValue& camera, const FrameOptions& options);
 std::size_t check_call(const RendererInfo& info, const SceneSnapshot& scene,
                        const CaptureOptions& options);
+
+/// What a frame will hold besides its size.
+struct FrameShape {
+    std::vector<OutputKind> outputs;
+    Encoding encoding = Encoding::linear;
+};
+/// Of a frame whose arguments check_call has found right. Nothing is drawn.
+FrameShape frame_shape(const SceneSnapshot& scene, const FrameOptions& options);
 
 }  // namespace cubecam

@@ -107,6 +107,12 @@ std::uint64_t next_context() {
 
 }  // namespace
 
+FrameShape frame_shape(const SceneSnapshot& scene, const FrameOptions& options) {
+    const auto drawn = [&] { return scene_encoding(scene, 0, seen_by_all); };
+    return {output_kinds(resolve_outputs(options.outputs, scene)),
+            frame_encoding(post_process_of(scene, options, drawn), drawn)};
+}
+
 /// The context outlives the objects that were made in it.
 struct Renderer::Gpu {
     Gpu(gl::Context made, const RendererOptions& options)

@@ -15,7 +15,16 @@ from .._progress import bar
 from ..typing import DepthFormat, DepthOrder, Format
 from .cubemaps import CubeMapBatch
 
-__all__ = ["capture_many", "capture_scenes", "iter_captures"]
+__all__ = [
+    "capture_many",
+    "capture_scenes",
+    "check_batch_room",
+    "check_same_kind",
+    "floats_of",
+    "iter_captures",
+    "places_of",
+    "scene_of",
+]
 
 
 @checked_call
@@ -108,7 +117,7 @@ def capture_many(
         depth_order=depth_order,
     )
     made = _room_for(batch, len(batch))
-    made.positions, made.rotations = _floats(positions), _floats(rotations)
+    made.positions, made.rotations = floats_of(positions), floats_of(rotations)
     with bar("captures", len(batch), None if progress else False) as advance:
         for first in range(0, len(batch), batch.most_cubes):
             part = made[first : first + batch.most_cubes]
@@ -262,7 +271,7 @@ def capture_scenes(
         raise TypeError(f"make_scene: expected a callable, got {text_of(make_scene)}")
     if renderer is not None and not isinstance(renderer, Renderer):
         raise TypeError(f"renderer: expected a Renderer or None, got {text_of(renderer)}")
-    places = np.broadcast_to(_places(position, number_of_scenes), (number_of_scenes, 3))
+    places = np.broadcast_to(places_of(position, number_of_scenes), (number_of_scenes, 3))
     wanted = list(outputs) if not isinstance(outputs, str) else outputs
 
     def plan(scene: Scene, at: npt.ArrayLike) -> _CaptureBatch:
@@ -289,21 +298,12 @@ def capture_scenes(
         kinds: list[Any] = []
         with bar("scenes", number_of_scenes, None if progress else False) as advance:
             for number in range(number_of_scenes):
-                scene = make_scene(number)
-                if not isinstance(scene, Scene):
-                    raise TypeError(
-                        f"make_scene: expected it to give a Scene, got {text_of(scene)}"
-                    )
+                scene = scene_of(make_scene, number)
                 batch = plan(scene, places[number : number + 1])
                 if made is None:
                     made, kinds = _room_for(batch, number_of_scenes), batch.outputs
                     made.encoding = batch.encoding
-                if batch.outputs != kinds or batch.encoding != made.encoding:
-                    raise ValueError(
-                        f"make_scene: expected scenes with the same outputs and encoding, got "
-                        f"{_described(kinds, made.encoding)} from number 0 and "
-                        f"{_described(batch.outputs, batch.encoding)} from number {number}"
-                    )
+                check_same_kind(batch, kinds, made.encoding, number)
                 part = made[number : number + 1]
                 batch.draw(0, part.faces, list(part.outputs.values()))
                 del scene, batch  # before the next scene is made
@@ -317,7 +317,26 @@ def capture_scenes(
             used.close()
 
 
-def _places(position: npt.ArrayLike, count: int) -> npt.NDArray[np.float64]:
+def scene_of(make_scene: Callable[[int], Scene], number: int) -> Scene:
+    """Call a user's function for a scene."""
+    scene = make_scene(number)
+    if not isinstance(scene, Scene):
+        raise TypeError(f"make_scene: expected it to give a Scene, got {text_of(scene)}")
+    return scene
+
+
+def check_same_kind(batch: _CaptureBatch, kinds: list[Any], encoding: str, number: int) -> None:
+    """Raise ValueError for a scene whose arrays are not like those of scene number 0."""
+    if batch.outputs != kinds or batch.encoding != encoding:
+        raise ValueError(
+            f"make_scene: expected scenes with the same outputs and encoding, got "
+            f"{_described(kinds, encoding)} from number 0 and "
+            f"{_described(batch.outputs, batch.encoding)} from number {number}"
+        )
+
+
+def places_of(position: npt.ArrayLike, count: int) -> npt.NDArray[np.float64]:
+    """Give one place for all scenes, (3,), or one for each, (count, 3)."""
     given = np.asarray(_to_array(position, "position"))
     if given.dtype.kind not in "iuf":
         raise TypeError(f"position: expected numbers, got {text_of(position)}")
@@ -333,17 +352,23 @@ def _described(kinds: list[Any], encoding: str) -> str:
     return f"outputs {[name for name, _, _ in kinds]} and {encoding!r}"
 
 
-def _floats(value: npt.ArrayLike | None) -> npt.NDArray[np.float64] | None:
+def floats_of(value: npt.ArrayLike | None) -> npt.NDArray[np.float64] | None:
+    """Give a copy of places or rotations, as results keep them."""
     return None if value is None else np.array(value, np.float64)
 
 
-def _room_for(batch: _CaptureBatch, count: int) -> CubeMapBatch:
-    """Make a batch of undefined numbers."""
+def check_batch_room(batch: _CaptureBatch, count: int) -> None:
+    """Raise ValueError if the memory does not hold so many captures."""
     n = batch.size
     bytes_of_one = 6 * n * n * 4 * batch.dtype.itemsize
     for _, channels, dtype in batch.outputs:
         bytes_of_one += 6 * n * n * channels * dtype.itemsize
     check_room(count * bytes_of_one, f"{count} captures of {n} pixels", "positions")
+
+
+def _room_for(batch: _CaptureBatch, count: int) -> CubeMapBatch:
+    """Make a batch of undefined numbers."""
+    check_batch_room(batch, count)
     faces, outputs = batch.allocate(count)
     names = [name for name, _, _ in batch.outputs]
     return CubeMapBatch(

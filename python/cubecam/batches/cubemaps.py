@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+import os
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, overload
 
@@ -12,12 +13,13 @@ import numpy.typing as npt
 from .._array_protocol import CPU, array_of, dlpack_of
 from .._calls import checked_call
 from .._checks import one_of, text_of
-from .._core import CubeMap, _cube_of_batch, _to_array
+from .._core import CubeMap, Scene, _cube_of_batch, _to_array
 from ..typing import Encoding
 from ._outputs import Output, OutputArrays
 
 if TYPE_CHECKING:
     import xarray
+    from zarr.abc.store import Store
 
     from ..typing import Pixels
 
@@ -46,13 +48,17 @@ class CubeMapBatch:
     Attributes
     ----------
     faces : ndarray (P, 6, N, N, C)
-        Faces of all cubemaps, writable.
+        Faces of all cubemaps, writable. In a batch of `open_batch` an array of zarr, which reads what is indexed.
     outputs : dict of str to ndarray
-        The outputs, writable; each is a property, too: ``batch.distance``.
+        The outputs, as `faces`; each is a property, too: ``batch.distance``.
     positions : ndarray (P, 3) float64 or None
         The places of the captures, world.
     rotations : ndarray (P, 4) float64 or None
         How the cubes were turned.
+    scene_hash : str or None
+        `cubecam.scene_hash` of what was captured, if it is known: from a store, or because it was set.
+    drawn : ndarray (P,) bool or None
+        Which cubemaps are there, in a batch of a store that is not finished. None: all.
 
     Raises
     ------
@@ -118,6 +124,8 @@ class CubeMapBatch:
         self.positions = _places(positions, "positions", len(self), 3)
         self.rotations = _places(rotations, "rotations", len(self), 4)
         self.encoding: Encoding = one_of(encoding, "encoding", ("linear", "srgb"))
+        self.scene_hash: str | None = None
+        self.drawn: npt.NDArray[np.bool_] | None = None
 
     @property
     def size(self) -> int:
@@ -144,7 +152,10 @@ class CubeMapBatch:
         self, place: slice | npt.NDArray[np.integer | np.bool_] | list[int]
     ) -> CubeMapBatch: ...
     def __getitem__(self, place: Any) -> CubeMap | CubeMapBatch:
-        """Give one cubemap, a copy, or several: a slice is a view of the same memory, as with numpy."""
+        """Give one cubemap, a copy, or several: a slice is a view of the same memory, as with numpy.
+
+        What a batch of `open_batch` gives is read at once, and lies in memory.
+        """
         if isinstance(place, (slice, list, np.ndarray)):
             return self._some(place)
         try:
@@ -162,13 +173,16 @@ class CubeMapBatch:
         return (self[number] for number in range(len(self)))
 
     def _some(self, place: Any) -> CubeMapBatch:
-        return CubeMapBatch(
-            self.faces[place],
-            outputs={name: values[place] for name, values in self.outputs.items()},
+        some = CubeMapBatch(
+            _taken(self.faces, place),
+            outputs={name: _taken(values, place) for name, values in self.outputs.items()},
             positions=None if self.positions is None else self.positions[place],
             rotations=None if self.rotations is None else self.rotations[place],
             encoding=self.encoding,
         )
+        some.scene_hash = self.scene_hash
+        some.drawn = None if self.drawn is None else self.drawn[place]
+        return some
 
     def __array__(
         self, dtype: npt.DTypeLike | None = None, copy: bool | None = None
@@ -192,20 +206,28 @@ class CubeMapBatch:
         )
 
     @checked_call
-    def to_xarray(self) -> xarray.Dataset:
+    def to_xarray(self, *, scene: Scene | None = None) -> xarray.Dataset:
         """Give the batch to xarray, with names for axes and faces and the conventions as attributes.
+
+        Parameters
+        ----------
+        scene : Scene, optional
+            What was captured: the attribute ``scene_hash`` is its `scene_hash`. None: that of the batch, if it has one.
 
         Returns
         -------
         xarray.Dataset
             ``color`` with dims probe, face, row, column, channel, and each output; they share the batch's memory.
             Coordinates: ``face`` ("+x" to "-z"), ``channel``, and, where the batch knows them, ``x``, ``y``, ``z`` and
-            ``rotation`` of each probe.
+            ``rotation`` of each probe; ``place_x``, ``place_y`` and ``place_z`` if an output has one of these names. A
+            batch of `open_batch` is read as a whole; ``xarray.open_zarr`` of its store reads what is asked for.
 
         Raises
         ------
         ImportError
             Without the package xarray.
+        ValueError
+            If a material's output has the name of a coordinate, such as ``face``.
 
         Examples
         --------
@@ -216,9 +238,73 @@ class CubeMapBatch:
         >>> data.color.sel(face="+y", channel="r").dims
         ('probe', 'row', 'column')
         """
-        from .labelled import cubes
+        from .labelled import dataset
+        from .store import hash_of
 
-        return cubes(self)
+        return dataset(self, hash_of(scene, self.scene_hash))
+
+    @checked_call
+    def to_zarr(
+        self,
+        store: str | os.PathLike[str] | Store,
+        *,
+        scene: Scene | None = None,
+        chunk: int = 64,
+        overwrite: bool = False,
+    ) -> None:
+        """Write the batch to a Zarr 3 store, from which `open_batch` and ``xarray.open_zarr`` read it.
+
+        The group has the arrays, names and attributes of `to_xarray`: ``color`` and each output with the dims probe,
+        face, row, column and channel, the coordinates, and attributes with convention, encoding and units. Each cubemap
+        is a chunk of its own, compressed by Zstandard with a checksum. A folder appears under its name when all of it
+        is written; in other stores the attribute ``complete`` is written last.
+
+        Parameters
+        ----------
+        store : path, str or zarr.abc.store.Store
+            The folder to write, an address that zarr can write, or a store of zarr.
+        scene : Scene, optional
+            What was captured, as in `to_xarray`.
+        chunk : int
+            Cubemaps of one file (a shard).
+        overwrite : bool
+            Whether a store that is there may go; another file or folder never does.
+
+        Raises
+        ------
+        FileExistsError
+            If there is something, unless it is a store and `overwrite` is True.
+        ImportError
+            Without the package zarr 3, which needs Python 3.11 or newer.
+        OSError
+            As writing files raises.
+        ValueError
+            As `to_xarray` raises, and for a `chunk` below 1.
+
+        Examples
+        --------
+        >>> import numpy as np, xarray
+        >>> import cubecam as cc
+        >>> scene = cc.Scene(background=(0, 0, 1))
+        >>> with cc.Renderer() as renderer:
+        ...     batch = renderer.capture_many(scene, np.eye(3), 8, outputs=["distance"])
+        >>> batch.to_zarr("blue.zarr", scene=scene)
+        >>> data = xarray.open_zarr("blue.zarr", chunks=None)
+        >>> data.color.sel(face="+y", channel="b").mean().item(), data.attrs["scene_hash"] == cc.scene_hash(scene)
+        (1.0, True)
+        """
+        from .store import write_batch
+
+        write_batch(self, store, scene, chunk, overwrite)
+
+
+def _taken(values: Any, place: Any) -> Any:
+    """Index an array; one of zarr, which is read, knows neither steps backwards nor masks in this way."""
+    if isinstance(values, np.ndarray):
+        return values[place]
+    if isinstance(place, slice) and (place.step is None or place.step > 0):
+        return np.asarray(values[place])
+    return np.asarray(values.oindex[np.arange(values.shape[0])[place]])
 
 
 def _array(value: npt.ArrayLike, name: str) -> npt.NDArray[Any]:

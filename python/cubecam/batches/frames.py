@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Any
 
 import numpy.typing as npt
 
 from .._array_protocol import CPU, array_of, dlpack_of
 from .._calls import checked_call
+from .._core import Scene
 from ._outputs import Output, OutputArrays
 
 if TYPE_CHECKING:
     import xarray
+    from zarr.abc.store import Store
 
     from ..typing import Encoding, Format, Pixels
 
@@ -26,13 +29,16 @@ class FrameBatch:
     Attributes
     ----------
     color : ndarray (F, H, W, 4) or None
-        The colours, uint8, float16 or float32 by the format; None with ``format=None``.
+        The colours, uint8, float16 or float32 by the format; None with ``format=None``. In a batch of `open_batch` an
+        array of zarr, which reads what is indexed.
     outputs : dict of str to ndarray (F, H, W) or (F, H, W, channels)
         The outputs; each is a property, too: ``batch.distance``.
     format : str or None
         The format, as `Renderer.render` takes it.
     encoding : str
         "linear" or "srgb", what the numbers of `color` are.
+    scene_hash : str or None
+        `cubecam.scene_hash` of what was rendered, if it is known: from a store, or because it was set.
 
     Examples
     --------
@@ -71,6 +77,7 @@ class FrameBatch:
         self.outputs = outputs
         self.format = format
         self.encoding = encoding
+        self.scene_hash: str | None = None
         self._count = count
         self._size = size
 
@@ -109,8 +116,13 @@ class FrameBatch:
         )
 
     @checked_call
-    def to_xarray(self) -> xarray.Dataset:
+    def to_xarray(self, *, scene: Scene | None = None) -> xarray.Dataset:
         """Give the batch to xarray: ``color`` with dims frame, row, column, channel, and each output.
+
+        Parameters
+        ----------
+        scene : Scene, optional
+            What was rendered: the attribute ``scene_hash`` is its `scene_hash`. None: that of the batch, if it has one.
 
         Returns
         -------
@@ -122,6 +134,42 @@ class FrameBatch:
         ImportError
             Without the package xarray.
         """
-        from .labelled import frames
+        from .labelled import dataset
+        from .store import hash_of
 
-        return frames(self)
+        return dataset(self, hash_of(scene, self.scene_hash))
+
+    @checked_call
+    def to_zarr(
+        self,
+        store: str | os.PathLike[str] | Store,
+        *,
+        scene: Scene | None = None,
+        chunk: int = 64,
+        overwrite: bool = False,
+    ) -> None:
+        """Write the batch to a Zarr 3 store, from which `open_batch` and ``xarray.open_zarr`` read it.
+
+        Parameters
+        ----------
+        store, scene, chunk, overwrite
+            As in `CubeMapBatch.to_zarr`, with frames in place of cubemaps.
+
+        Raises
+        ------
+        FileExistsError, ImportError, OSError
+            As `CubeMapBatch.to_zarr` raises.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene, cameras = cc.Scene(background=(1, 0, 0)), [cc.PerspectiveCamera()] * 3
+        >>> with cc.Renderer() as renderer:
+        ...     renderer.render_many(scene, cameras, (32, 16)).to_zarr("red.zarr")
+        >>> again = cc.open_batch("red.zarr")
+        >>> again, again.color[2, 0, 0].tolist()
+        (FrameBatch(3, size=(32, 16), format='rgba8', encoding='linear'), [255, 0, 0, 255])
+        """
+        from .store import write_batch
+
+        write_batch(self, store, scene, chunk, overwrite)

@@ -18,7 +18,7 @@ from .frames import FrameBatch
 if TYPE_CHECKING:
     from ..typing import Pixels
 
-__all__ = ["render_many"]
+__all__ = ["cameras_of", "render_many"]
 
 
 @checked_call
@@ -78,16 +78,7 @@ def render_many(
     >>> batch.color.shape, batch.distance.min(axis=(1, 2)).round(1).tolist()
     ((3, 30, 40, 4), [2.0, 3.0, 4.0])
     """
-    if isinstance(cameras, str) or not isinstance(cameras, Iterable):
-        raise TypeError(f"cameras: expected a sequence of cameras, got {text_of(cameras)}")
-    seen_by = list(cameras)
-    for camera in seen_by:
-        if not isinstance(camera, (Camera, StereoCamera)):
-            raise TypeError(
-                f"cameras: expected cameras, Camera or StereoCamera, got {text_of(camera)}"
-            )
-    if not seen_by:
-        raise ValueError("cameras: expected at least one camera, got none")
+    seen_by = cameras_of(cameras)
     batch = _RenderBatch(
         self,
         scene,
@@ -116,6 +107,21 @@ def render_many(
             advance(1)
     assert made is not None  # there is at least one camera
     return made
+
+
+def cameras_of(cameras: Iterable[Camera | StereoCamera]) -> list[Camera | StereoCamera]:
+    """Give a list of cameras, at least one."""
+    if isinstance(cameras, str) or not isinstance(cameras, Iterable):
+        raise TypeError(f"cameras: expected a sequence of cameras, got {text_of(cameras)}")
+    seen_by = list(cameras)
+    for camera in seen_by:
+        if not isinstance(camera, (Camera, StereoCamera)):
+            raise TypeError(
+                f"cameras: expected cameras, Camera or StereoCamera, got {text_of(camera)}"
+            )
+    if not seen_by:
+        raise ValueError("cameras: expected at least one camera, got none")
+    return seen_by
 
 
 def _room_for(count: int, frame: Frame) -> FrameBatch:

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from .. import _core
 from .._calls import checked_call
 from .._checks import pair, real_number, whole_number
+from .._processes import interpreter
 from .._progress import bar
 from .arguments import Quality, matrix_of, nodes_of, of_class, output_names, quality_of, vector
 from .eyes import CameraEye, CubeEye, Eye
@@ -24,7 +25,7 @@ from .scene.snapshot import read
 from .sums import Sums
 from .surfaces.trees import embree
 from .work import PATHS, Job, pieces
-from .workers import Workers, interpreter
+from .workers import Workers
 
 if TYPE_CHECKING:
     from .._core import Camera, Node, RenderTexture, Scene

@@ -1,0 +1,141 @@
+"""What a call captures: the scene as bytes, the places, the arrays, and the numbers by which a store knows it again."""
+
+from __future__ import annotations
+
+import hashlib
+import pickle
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .._checks import text_of, whole_number
+from .._core import Node, Renderer, Scene
+from .._scene_hash import scene_hash
+from ..batches.captures import check_batch_room, floats_of
+from ..batches.cubemaps import CubeMapBatch
+from ..batches.labelled import Labels, labels_of
+from ..pool.memory import Layout
+from ..pool.work import Captures, cube_layout
+
+__all__ = ["Plan", "plan_of"]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A call, checked; nothing was drawn."""
+
+    work: Captures
+    chunk: int
+    payload: bytes  # the scene and the nodes that are left out
+    token: str  # the same for the same payload
+    hash: str
+    names: list[str]  # of the outputs
+    layout: Layout  # of the faces, then of the outputs
+    encoding: Any
+    request: dict[str, Any]
+
+    def __len__(self) -> int:
+        return len(self.work.positions)
+
+    @property
+    def chunks(self) -> int:
+        """int: how many chunks there are."""
+        return -(-len(self) // self.chunk)
+
+    def span(self, number: int) -> tuple[int, int]:
+        """Give the first place of a chunk, and how many it has."""
+        first = number * self.chunk
+        return first, min(self.chunk, len(self) - first)
+
+    def part(self, number: int) -> Captures:
+        """Give the work of one chunk."""
+        return self.work.part(*self.span(number))
+
+    def labels(self) -> Labels:
+        """Name the arrays; their values are not there."""
+        empty = [
+            np.broadcast_to(np.zeros((), dtype), (len(self), *shape))
+            for shape, dtype in self.layout
+        ]
+        batch = CubeMapBatch(
+            empty[0],
+            outputs=dict(zip(self.names, empty[1:], strict=True)),
+            positions=self.work.positions,
+            rotations=self.work.rotations,
+            encoding=self.encoding,
+        )
+        return labels_of(batch, self.hash)
+
+
+def plan_of(
+    scene: Scene,
+    positions: npt.ArrayLike,
+    rotations: npt.ArrayLike | None,
+    exclude: Iterable[Node],
+    chunk: int,
+    options: dict[str, Any],
+) -> Plan:
+    """Check all arguments of a call as `Renderer.capture_many` does, by a renderer of this process.
+
+    Raises
+    ------
+    TypeError, ValueError, ContextError
+        As `Renderer.capture_many` raises; ValueError, too, for a scene whose pictures depend on those before them.
+    """
+    if not isinstance(scene, Scene):
+        raise TypeError(f"scene: expected a Scene, got {text_of(scene)}")
+    places_of_chunk = whole_number(chunk, "chunk", 1)
+    left_out = exclude if isinstance(exclude, (str, bytes)) else list(exclude)
+    outputs = options["outputs"]
+    options = {**options, "outputs": outputs if isinstance(outputs, str) else list(outputs)}
+    places, turns = floats_of(positions), floats_of(rotations)
+    with Renderer() as renderer:
+        assert places is not None
+        batch = Captures(places, turns, options).batch(renderer, scene, left_out)  # type: ignore[arg-type]
+        if batch.in_order:
+            raise ValueError(
+                "scene: expected probes with faces_per_frame=6, got fewer: then a picture depends on those before it"
+            )
+        check_batch_room(batch, min(places_of_chunk, len(batch)))
+        names = [name for name, _, _ in batch.outputs]
+        layout, encoding = cube_layout(batch), batch.encoding
+    known = scene_hash(scene)
+    ids = [node.id for node in left_out if isinstance(node, Node)]
+    eye = options["eye"]
+    options = {**options, "eye": None if eye is None else np.array(eye, np.float64).tolist()}
+    request: dict[str, Any] = {
+        **{name: _plain(value) for name, value in options.items()},
+        "outputs": names,
+        "exclude": ids,
+        "chunk": places_of_chunk,
+        "places": _digest(places, turns),
+    }
+    return Plan(
+        Captures(places, turns, options),
+        places_of_chunk,
+        pickle.dumps((scene, left_out), protocol=5),
+        hashlib.sha256(f"{known} {ids}".encode()).hexdigest()[:32],
+        known,
+        names,
+        layout,
+        encoding,
+        request,
+    )
+
+
+def _plain(value: Any) -> Any:
+    """Give a number or a text as JSON knows it."""
+    if isinstance(value, np.generic):
+        return value.item()
+    return value
+
+
+def _digest(*arrays: npt.NDArray[np.float64] | None) -> str:
+    digest = hashlib.sha256()
+    for array in arrays:
+        if array is not None:
+            digest.update(f"{array.shape};".encode() + np.ascontiguousarray(array, "<f8").tobytes())
+    return digest.hexdigest()

@@ -1,0 +1,93 @@
+"""What a process that draws keeps from chunk to chunk: a renderer, and the scenes that it was sent."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import threading
+from collections import OrderedDict
+from typing import Any
+
+import numpy as np
+
+from .._core import ContextError, Device, Renderer, devices
+from ..pool.memory import Arrays, Layout
+from ..pool.work import Captures
+
+__all__ = ["device_of_worker", "draw"]
+
+#: How many scenes a process keeps, the last ones used.
+_SCENES = 4
+
+
+class _Desk:
+    """One renderer for all threads of the process; it is made when something is drawn."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._renderer: Renderer | None = None
+        self._scenes: OrderedDict[str, Any] = OrderedDict()
+
+    def draw(self, payload: bytes, token: str, work: Captures, arrays: Arrays) -> None:
+        with self._lock:
+            if token in self._scenes:
+                self._scenes.move_to_end(token)
+            else:
+                self._scenes[token] = pickle.loads(payload)
+                while len(self._scenes) > _SCENES:
+                    self._scenes.popitem(last=False)
+            if self._renderer is None:
+                self._renderer = Renderer(device=device_of_worker())
+            try:
+                work.draw(self._renderer, self._scenes[token], 0, arrays)
+            except ContextError:  # a lost one; the next chunk gets a new one
+                self._renderer = None
+                raise
+
+
+_desk = _Desk()
+
+
+def _after_fork() -> None:
+    _desk.__init__()  # type: ignore[misc] # a renderer does not survive a fork
+
+
+os.register_at_fork(after_in_child=_after_fork)
+
+
+def draw(payload: bytes, token: str, work: Captures, layout: Layout) -> Arrays:
+    """Draw a chunk: the faces, then the outputs.
+
+    Parameters
+    ----------
+    payload : bytes
+        The scene and the nodes that are left out, as a pickle; it is read once for each token.
+    token : str
+        Names the payload.
+    work : Captures
+        The places of the chunk.
+    layout : list
+        Shape and dtype of each array, without its first axis.
+    """
+    arrays: Arrays = [np.empty((len(work.positions), *shape), dtype) for shape, dtype in layout]
+    if len(work.positions):
+        _desk.draw(payload, token, work, arrays)
+    return arrays
+
+
+def device_of_worker() -> str | Device:
+    """Say on what a worker draws.
+
+    ``CUBECAM_DEVICE`` comes first. Then the first GPU of ``CUDA_VISIBLE_DEVICES``, by which clusters give each worker
+    a GPU of its own: OpenGL knows nothing of that variable. "auto" if neither is set, or no device has that number.
+    """
+    first = os.environ.get("CUDA_VISIBLE_DEVICES", "").partition(",")[0].strip()
+    if os.environ.get("CUBECAM_DEVICE") or not first:
+        return "auto"
+    for device in devices():
+        if first.isdecimal() and device.cuda_index == int(first) and not device.problem:
+            return device
+        part = first.removeprefix("GPU-")  # of a UUID; CUDA takes its beginning
+        if first != part and device.uuid.startswith(part) and not device.problem:
+            return device
+    return "auto"
