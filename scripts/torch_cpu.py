@@ -85,7 +85,9 @@ def complete(folder: Path) -> None:
         for version, name in versions_needed(path).items()
         if name in missing
     }
-    found: dict[str, dict[str, set[str]]] = {name: {} for name in missing}  # library, version, functions
+    found: dict[str, dict[str, set[str]]] = {
+        name: {} for name in missing
+    }  # library, version, functions
     plain: set[str] = set()  # functions without a version
     defined: set[str] = set()
     for path in libraries:
