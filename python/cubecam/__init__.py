@@ -30,7 +30,7 @@ from ._core import __version__
 from ._late import late_names
 
 if TYPE_CHECKING:
-    from . import doctor, explore, plot, truth
+    from . import cluster, doctor, explore, plot, truth
     from ._futures import PictureFuture
     from ._scene_hash import scene_hash
     from ._warnings import ConventionWarning, RendererWarning, SceneWarning
@@ -69,6 +69,7 @@ else:
             "viewer.viewer": ["Viewer"],
         },
         modules=[
+            "cluster",
             "demo",
             "doctor",
             "examples",
@@ -96,6 +97,7 @@ __all__ = [
     "__version__",
     "brdf",
     "capture_scenes",
+    "cluster",
     "doctor",
     "explore",
     "fresnel",

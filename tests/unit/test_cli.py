@@ -63,6 +63,7 @@ COMMANDS = [
     "bake",
     "convert",
     "capture",
+    "capture-many",
     "compare",
     "example",
     "view",

@@ -1,4 +1,4 @@
-"""The command `cubecam`: info, doctor, demo, render, bake, convert, capture, compare, example, view, conventions.
+"""The command `cubecam`: info, doctor, demo, render, bake, convert, capture, capture-many, compare, example, view, ...
 
 Exit codes: 0 for success; 1 for an error, with a message; 2 for a command that is not valid; 130 for Ctrl-C, which
 leaves no unfinished file; 141 if the program that reads the output has ended, as in `cubecam info | head -1`.
@@ -17,6 +17,7 @@ from .. import __version__
 from ..io.outside import calls_run
 from .bake import bake
 from .capture import capture
+from .capture_many import capture_many
 from .common import FILE, WholeNumber, device_option, failures_reported, parse_device
 from .compare import compare
 from .completion import completion_options
@@ -67,7 +68,7 @@ def demo(out: str, frames: int, size: int, device: str | None) -> None:
 
 
 for _command in (
-    info, doctor, demo, render, bake, convert, capture, compare, example, view, conventions,
+    info, doctor, demo, render, bake, convert, capture, capture_many, compare, example, view, conventions,
 ):  # fmt: skip
     app.add_command(_command)
 

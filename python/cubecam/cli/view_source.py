@@ -15,7 +15,7 @@ from .common import sample_light, warnings_reported
 if TYPE_CHECKING:
     from ..viewer.live import LiveView
 
-__all__ = ["FAILURES", "Shown", "read", "stamp"]
+__all__ = ["FAILURES", "Shown", "read", "run_script", "stamp"]
 
 _PICTURES = (
     ".exr", ".hdr", ".pic", ".rgbe", ".xyze", ".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".bmp", ".tga", ".gif",
@@ -137,7 +137,7 @@ def _picture(path: str) -> Shown:
 
 def _script(path: str) -> Shown:
     """Run a script and take its `view` or `viewer`, or its `scene` and `camera`."""
-    names, files = _run(path)
+    names, files = run_script(path)
     from ..viewer.live import LiveView
 
     for name in ("view", "viewer"):
@@ -155,8 +155,14 @@ def _script(path: str) -> Shown:
     return Shown(scene, camera, options, placed=repr(camera) if camera else "", files=files)
 
 
-def _run(path: str) -> tuple[dict[str, Any], tuple[Path, ...]]:
-    """Run a script as Python does, except that its __name__ is not "__main__"; give its names and its own modules."""
+def run_script(path: str) -> tuple[dict[str, Any], tuple[Path, ...]]:
+    """Run a script as Python does, except that its __name__ is not "__main__"; give its names and its own modules.
+
+    Raises
+    ------
+    ValueError
+        With the line of the script, for what it raises.
+    """
     file = Path(path)
     source = file.read_bytes()
     names: dict[str, Any] = {"__name__": "__cubecam_view__", "__file__": str(file)}

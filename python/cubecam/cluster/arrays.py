@@ -44,9 +44,12 @@ def capture_array(
 ) -> dask.array.Array:
     """Give captures from many places as an array of Dask, of which nothing is drawn yet.
 
-    Each chunk is drawn where its numbers are needed: in this process, or on the workers of a cluster, of which each keeps a
-    renderer and is sent the scene once. The scene is that of the moment of the call. `capture_dataset` gives the
-    colours and several outputs, drawn together.
+    Each chunk is drawn where its numbers are needed: in this process, or on the workers of a cluster, of which each
+    keeps a renderer and is sent the scene once. The scene is that of the moment of the call. `capture_dataset` gives
+    the colours and several outputs, drawn together.
+
+    If the workers of a cluster were started with ``--resources "GPU=1"``, ``client.compute(array, resources={"GPU":
+    1})`` draws one chunk at a time on each.
 
     Parameters
     ----------
@@ -164,10 +167,7 @@ def capture_dataset(
     labels: Labels = plan.labels()
     arrays = _arrays(plan)
     return xarray.Dataset(
-        {
-            name: (row.axes, arrays[name], row.attributes)
-            for name, row in labels.variables.items()
-        },
+        {name: (row.axes, arrays[name], row.attributes) for name, row in labels.variables.items()},
         {name: (row.axes, row.values, row.attributes) for name, row in labels.coordinates.items()},
         labels.attributes,
     )
@@ -175,7 +175,7 @@ def capture_dataset(
 
 def _need_dask(caller: str) -> None:
     try:
-        import dask.array
+        import dask.array  # noqa: F401
         import xarray  # noqa: F401
     except ImportError as error:
         raise ImportError(

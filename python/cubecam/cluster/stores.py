@@ -83,10 +83,11 @@ def capture_to_zarr(
 ) -> CubeMapBatch:
     """Capture a scene from many places into a Zarr store; what an earlier call has finished is kept.
 
-    The store is one of `CubeMapBatch.to_zarr`, with an array ``drawn`` (P,) bool that says which places are there. Places
-    are drawn and written in chunks of `chunk`. A chunk counts as soon as ``drawn`` says so, which is written after all
-    else; whatever ends a process before that, the chunk is drawn again by the next call. The attribute ``complete`` is
-    True when all are there. Bytes depend neither on who draws nor on how often the work was interrupted.
+    The store is one of `CubeMapBatch.to_zarr`, with an array ``drawn`` (P,) bool that says which places are there.
+    Places are drawn and written in chunks of `chunk`. A chunk counts as soon as ``drawn`` says so, which is written
+    after all else; whatever ends a process before that, the chunk is drawn again by the next call. The attribute
+    ``complete`` is True when all are there. Bytes depend neither on who draws nor on how often the work was
+    interrupted.
 
     Parameters
     ----------
@@ -222,17 +223,13 @@ def _check_client(client: Any) -> None:
             'client=: expected the packages of pip install "cubecam[cluster]"'
         ) from error
     if not isinstance(client, Client):
-        raise TypeError(
-            f"client: expected a Client of distributed or None, got {text_of(client)}"
-        )
+        raise TypeError(f"client: expected a Client of distributed or None, got {text_of(client)}")
 
 
 # ----- the store
 
 
-def _begun(
-    place: Any, path: Path | None, plan: Plan, resume: bool, overwrite: bool
-) -> zarr.Group:
+def _begun(place: Any, path: Path | None, plan: Plan, resume: bool, overwrite: bool) -> zarr.Group:
     """Open the store of this plan, or make it."""
     there = os.path.lexists(place) if path is not None else _is_group(place)
     if there and not overwrite:
@@ -346,7 +343,9 @@ def _by_pool(
     advance: Callable[[int], None],
 ) -> None:
     """Let a pool draw ahead while this process writes."""
-    rows = np.concatenate([np.arange(first, first + count) for first, count in map(plan.span, todo)])
+    rows = np.concatenate(
+        [np.arange(first, first + count) for first, count in map(plan.span, todo)]
+    )
     turns = plan.work.rotations
     cubes = pool.iter_captures(
         scene,
@@ -376,7 +375,7 @@ def _by_client(
     resources: Mapping[str, float] | None,
 ) -> None:
     """Let the workers of a cluster draw and write."""
-    from distributed import as_completed
+    from distributed import KilledWorker, as_completed
 
     # A task and no scattered data: if all workers that have it die, the scheduler makes it again.
     name = f"cubecam-scene-{plan.token}-{time.time_ns()}"
@@ -386,7 +385,13 @@ def _by_client(
 
     def submit(number: int) -> Any:
         return client.submit(
-            _draw_and_write, payload, job, number, plan.part(number), key=f"{name}-{number}", **options
+            _draw_and_write,
+            payload,
+            job,
+            number,
+            plan.part(number),
+            key=f"{name}-{number}",
+            **options,
         )
 
     waiting = iter(todo)
@@ -406,16 +411,23 @@ def _by_client(
                 new = submit(following)
                 under_way.add(new)
                 done.add(new)
-    except (CancelledError, OSError, TimeoutError) as error:
-        if client.status == "running":
+    except (CancelledError, KilledWorker) as error:
+        raise _lost(job, error) from error
+    except OSError as error:
+        if client.status == "running":  # it is a worker's own, such as a full disk
             raise
-        raise Error(
-            f"{job.store}: the cluster was lost ({error!r}); what is finished stays, and the same call goes on with it"
-        ) from error
+        raise _lost(job, error) from error
     finally:
         if under_way and client.status == "running":
             with contextlib.suppress(Exception):
                 client.cancel(list(under_way))
+
+
+def _lost(job: _Job, error: BaseException) -> Error:
+    return Error(
+        f"{job.store}: the cluster was lost or gave up ({error!r}); what is finished stays, and the same call goes on "
+        "with it"
+    )
 
 
 def _same_bytes(payload: bytes) -> bytes:
