@@ -5,9 +5,9 @@
     python -m benchmarks.million --device gpu                     on a GPU: times are by the clock
 
 Each kind of scene is measured in a process of its own, as a worker of `cc.Pool` is: with LP_NUM_THREADS=0, so that a
-worker is a thread. `start` is from the start of Python to the first cubemap of the first scene. `draw` is
-the median of some calls of `capture_many`, `write` that of `to_zarr` with its defaults. `memory` is the most that the process
-had in RAM when 64 cubemaps, a file of the store, were drawn and written. The scenes:
+worker is a thread. It starts when Python does, and ends to start with the first cubemap. `draw` is the median of some
+calls of `capture_many`, `write` that of `to_zarr` with its defaults. The memory is the most that the process had in RAM
+when 64 cubemaps, a file of the store, were drawn and written. The scenes:
 
 - **boxes**: a room with 12 boxes, one lamp, Phong; faces of 64 pixels
 - **teapots**: 20 teapots on a ground (`benchmarks/field.py`), Phong; 64 pixels
@@ -44,6 +44,7 @@ FORMATS = ("rgba8", "rgba16f", "rgba32f")
 OUTPUTS = ("distance", "id", "normal")
 #: What the tables of hours take: half floats and the distance.
 FORMAT, OUTPUT = "rgba16f", "distance"
+STARTS, MEMORY = "worker starts, s of CPU / clock", "memory of a worker, MiB"
 CORES = 64  # of the machine for which minutes are reckoned
 
 
@@ -181,7 +182,7 @@ def tables(kinds: list[Kind], about: dict[str, Any], per: str) -> str:
     lines = [
         f"Measured on {about['cores']} cores of {about['cpu']}; {about['gl']}; {FORMAT} and {OUTPUT}.",
         "",
-        f"| scene | faces | draw, ms of {per} | write, ms of {per} | worker starts, s of CPU / clock | memory of a worker, MiB |",
+        f"| scene | faces | draw, ms of {per} | write, ms of {per} | {STARTS} | {MEMORY} |",
         "|---|---|---|---|---|---|",
     ]
     lines += [
