@@ -29,7 +29,7 @@ CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-fast test-build test-browser test-interop test-torch test-lowest dev lint format stubs bench curves gpu-check docs gallery notebooks sdist wheel wheels image conda release-check sanitize fuzz soak mutants clean
+.PHONY: help demo test test-fast test-build test-browser test-cluster test-interop test-torch test-lowest dev lint format stubs bench curves gpu-check docs gallery notebooks sdist wheel wheels image conda release-check sanitize fuzz soak mutants clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -41,7 +41,7 @@ test: $(VENV)/.installed $(VENV)/.deps-test ## set up, build, and run the whole 
 	@$(PYTEST) --durations=10 $(PYTEST_ARGS)
 
 test-fast: $(VENV)/.installed $(VENV)/.deps-test ## run the tests that take less than a second, without notebooks
-	@$(PYTEST) -m "not slow and not build and not browser and not torch" tests $(PYTEST_ARGS)
+	@$(PYTEST) -m "not slow and not build and not browser and not cluster and not torch" tests $(PYTEST_ARGS)
 
 test-build: $(VENV)/.installed $(VENV)/.deps-test ## run all tests that compile C++: warnings as errors, ctest, example, materials
 	@PATH="$(abspath $(VENV))/bin:$$PATH"; \
@@ -51,6 +51,9 @@ test-build: $(VENV)/.installed $(VENV)/.deps-test ## run all tests that compile 
 test-browser: docs $(VENV)/.deps-test $(VENV)/.deps-browser ## drive pages, JupyterLab and the site with Chromium, which apt installs
 	@$(PYTHON) scripts/system.py --browser
 	@$(PY) -m pytest -m browser tests/browser $(PYTEST_ARGS)
+
+test-cluster: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-cluster ## kill workers, schedulers and writers of Dask clusters, and look at what they leave; Python 3.11 or newer
+	@$(PY) -m pytest -m cluster tests/cluster $(PYTEST_ARGS)
 
 test-interop: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-browser $(VENV)/.deps-light $(VENV)/.deps-peers $(VENV)/.bpy ## compare with three.js, Babylon.js, ktx-parse, Filament, Blender, moderngl, pygfx, VTK; needs npm and Chromium
 	@$(PYTHON) scripts/system.py --browser

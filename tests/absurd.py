@@ -10,6 +10,7 @@ import decimal
 import enum
 import fractions
 import inspect
+import sys
 import operator
 import pathlib
 import typing
@@ -21,7 +22,7 @@ import numpy as np
 
 import cubecam as cc
 import cubecam.typing
-from cubecam import demo, explore, navigation, plot, truth
+from cubecam import cluster, demo, explore, navigation, plot, truth
 from cubecam._checks import union_parts
 from cubecam.viewer.cube_view import CubeView
 from cubecam.viewer.viewer import Viewer
@@ -313,13 +314,15 @@ def python_functions() -> dict[str, Callable[..., Any]]:
     """Give the public functions that are written in Python; methods that are attached to classes stand in the stubs."""
     found = {name: getattr(cc, name) for name in cc.__all__}
     found = {name: thing for name, thing in found.items() if inspect.isfunction(thing)}
-    for module in (plot, navigation, truth):
+    for module in (plot, navigation, truth, cluster):
         short = module.__name__.rpartition(".")[2]
         found |= {
             f"{short}.{n}": thing
             for n in module.__all__
             if inspect.isfunction(thing := getattr(module, n))
         }
+    if sys.version_info < (3, 11):  # without zarr 3
+        found = {n: f for n, f in found.items() if n != "open_batch" and n[:8] != "cluster."}
     found["explore.reflection"] = explore.reflection
     found["explore.layout"] = explore.layout
     found["demo.run"] = demo.run

@@ -9,6 +9,7 @@ and the message says "expected ..., got ...".
 import contextlib
 import functools
 import itertools
+import sys
 import warnings
 from typing import Any
 
@@ -16,7 +17,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from cubecam import demo, explore, navigation, plot, truth
+from cubecam import cluster, demo, explore, navigation, plot, truth
 from cubecam.viewer.cube_view import CubeView
 from cubecam.viewer.viewer import Viewer
 from tests import absurd
@@ -246,6 +247,15 @@ NEEDED: dict[str, Any] = {
     "plot.seam_steps": lambda: {"cube": FACES},
     "plot.seams": lambda: {"cube": FACES},
     "plot.vectors": lambda: {"field": FACES},
+    "cluster.capture_array": lambda: {"scene": cc.Scene(), "positions": [(0, 0, 0)], "size": 1},
+    "cluster.capture_dataset": lambda: {"scene": cc.Scene(), "positions": [(0, 0, 0)], "size": 1},
+    "cluster.capture_to_zarr": lambda: {
+        "scene": cc.Scene(),
+        "positions": [(0, 0, 0)],
+        "store": "new.zarr",
+        "size": 1,
+        "overwrite": True,
+    },
     "truth.capture": lambda: {"scene": cc.Scene(), "size": 2, "samples": 1},
     "truth.compare": lambda: {"picture": PICTURE, "truth": PICTURE},
     "truth.render": lambda: {
@@ -282,7 +292,7 @@ NEEDED: dict[str, Any] = {
 SLOW = (
     "demo.run", "demo.build_scene", "Scene.show", "CubeMap.show", "explore.reflection", "explore.layout", "Renderer",
     "Viewer", "CubeView", "ReflectionView", "LayoutView", "load_environment", "plot.", "CubeMap.save_for", "Frame.save",
-    "save_animation", "CubeMap.save",
+    "save_animation", "CubeMap.save", "cluster.",
 )  # fmt: skip
 
 
@@ -307,6 +317,7 @@ def function_of(name, renderer):
         "plot": plot,
         "navigation": navigation,
         "explore": explore,
+        "cluster": cluster,
         "demo": demo,
         "truth": truth,
     }
@@ -363,6 +374,8 @@ def files(tmp_path):
     cube().save(tmp_path / "cube.exr")
     (tmp_path / "mesh.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     cc.Scene().save(tmp_path / "scene.glb")
+    if sys.version_info >= (3, 11):
+        cc.CubeMapBatch(np.zeros((1, 6, 1, 1, 3), np.float32)).to_zarr(tmp_path / "batch.zarr")
 
 
 def failure(place, value, renderer):

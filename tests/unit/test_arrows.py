@@ -59,6 +59,7 @@ PYTHON_ORDER = (
     "_array_protocol",
     "batches",  # many captures and frames in one call
     "pool",  # the same by several processes
+    "cluster",  # the same by many machines
     "plot",
     "navigation",
     "optics",

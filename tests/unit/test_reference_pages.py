@@ -25,6 +25,7 @@ MODULES = [
     "pictures",
     "doctor",
     "truth",
+    "cluster",
 ]
 
 

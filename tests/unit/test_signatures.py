@@ -15,7 +15,7 @@ import re
 import pytest
 
 import cubecam as cc
-from cubecam import demo, explore, navigation, plot, truth
+from cubecam import cluster, demo, explore, navigation, plot, truth
 from cubecam._calls import checked_call
 from cubecam.io import cubemap_save, cubemaps, images, meshes
 from cubecam.pictures import results
@@ -160,6 +160,9 @@ BY_POSITION = {
     "results.cube_png": ["cube"],
     "results.frame_png": ["frame"],
     "results.image_png": ["image"],
+    "cluster.capture_array": ["scene", "positions", "size"],
+    "cluster.capture_dataset": ["scene", "positions", "size"],
+    "cluster.capture_to_zarr": ["scene", "positions", "store", "size"],
     "truth.capture": ["scene", "position", "size"],
     "truth.compare": ["picture", "truth", "mask"],
     "truth.render": ["scene", "camera", "size"],
@@ -228,6 +231,7 @@ def of_python():
     functions |= {
         f"truth.{n}": thing for n in truth.__all__ if inspect.isfunction(thing := vars(truth)[n])
     }
+    functions |= {f"cluster.{n}": getattr(cluster, n) for n in cluster.__all__}
     functions["explore.reflection"] = explore.reflection
     functions["explore.layout"] = explore.layout
     functions["DemoScene.turn"] = demo.DemoScene.turn
@@ -257,7 +261,7 @@ def callable_of(name):
     """A callable by the name that FOUND gives; a method of a class is called with an object that is not made yet."""
     owner, _, member = name.rpartition(".")
     modules = {
-        module.__name__.rpartition(".")[2]: module for module in (*MODULES, explore, plot, truth)
+        module.__name__.rpartition(".")[2]: module for module in (*MODULES, cluster, explore, plot, truth)
     }
     if not owner:
         return getattr(cc, name)

@@ -12,13 +12,14 @@ import numpy as np
 import numpy.typing as npt
 
 from .._checks import text_of, whole_number
-from .._core import Node, Renderer, Scene
+from .._core import Node, Scene, _CaptureBatch
 from .._scene_hash import scene_hash
 from ..batches.captures import check_batch_room, floats_of
 from ..batches.cubemaps import CubeMapBatch
 from ..batches.labelled import Labels, labels_of
 from ..pool.memory import Layout
 from ..pool.work import Captures, cube_layout
+from .worker import renderer_of_process
 
 __all__ = ["Plan", "plan_of"]
 
@@ -88,13 +89,10 @@ def plan_of(
     if not isinstance(scene, Scene):
         raise TypeError(f"scene: expected a Scene, got {text_of(scene)}")
     places_of_chunk = whole_number(chunk, "chunk", 1)
-    left_out = exclude if isinstance(exclude, (str, bytes)) else list(exclude)
-    outputs = options["outputs"]
-    options = {**options, "outputs": outputs if isinstance(outputs, str) else list(outputs)}
-    places, turns = floats_of(positions), floats_of(rotations)
-    with Renderer() as renderer:
-        assert places is not None
-        batch = Captures(places, turns, options).batch(renderer, scene, left_out)  # type: ignore[arg-type]
+    left_out = _listed(exclude)
+    options = {**options, "outputs": _listed(options["outputs"])}
+    with renderer_of_process() as renderer:
+        batch = _CaptureBatch(renderer, scene, positions, rotations, exclude=left_out, **options)
         if batch.in_order:
             raise ValueError(
                 "scene: expected probes with faces_per_frame=6, got fewer: then a picture depends on those before it"
@@ -102,6 +100,8 @@ def plan_of(
         check_batch_room(batch, min(places_of_chunk, len(batch)))
         names = [name for name, _, _ in batch.outputs]
         layout, encoding = cube_layout(batch), batch.encoding
+    places, turns = floats_of(positions), floats_of(rotations)
+    assert places is not None  # the batch has refused it
     known = scene_hash(scene)
     ids = [node.id for node in left_out if isinstance(node, Node)]
     eye = options["eye"]
@@ -124,6 +124,13 @@ def plan_of(
         encoding,
         request,
     )
+
+
+def _listed(values: Any) -> Any:
+    """Give a list of what can be read once; what cannot be read is refused by the core."""
+    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
+        return values
+    return list(values)
 
 
 def _plain(value: Any) -> Any:

@@ -36,11 +36,12 @@ from ..batches.store import (
     path_of,
     replacing,
 )
+from ..pool.memory import Arrays, Layout
 from ..pool.pool import Pool
 from ..pool.work import Captures
 from ..typing import DepthFormat, DepthOrder, Format
 from .plan import Plan, plan_of
-from .worker import Arrays, Layout, draw
+from .worker import draw
 
 if TYPE_CHECKING:
     import zarr
@@ -244,7 +245,7 @@ def _begun(place: Any, path: Path | None, plan: Plan, resume: bool, overwrite: b
         np.zeros(len(plan), bool),
         {"long_name": "whether the place is there; written after all else"},
     )
-    new = {"complete": False, "more": {"request": plan.request}, "ledger": ledger}
+    new: dict[str, Any] = {"complete": False, "more": {"request": plan.request}, "ledger": ledger}
     if path is None:
         return make_store(place, labels, plan.chunk, len(plan), **new)
     try:
@@ -289,7 +290,7 @@ def _differences(known: Mapping[str, Any], wanted: Mapping[str, Any]) -> Iterato
         there = known.get(name)
         if name == "request":
             yield from _differences(there if isinstance(there, dict) else {}, value)
-        elif there != value and not (there is None and name == "eye"):
+        elif there != value:
             yield f"{name} there {there!r}, here {value!r}"
 
 

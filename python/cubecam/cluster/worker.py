@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import pickle
 import threading
 from collections import OrderedDict
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -14,7 +16,7 @@ from .._core import ContextError, Device, Renderer, devices
 from ..pool.memory import Arrays, Layout
 from ..pool.work import Captures
 
-__all__ = ["device_of_worker", "draw"]
+__all__ = ["device_of_worker", "draw", "renderer_of_process"]
 
 #: How many scenes a process keeps, the last ones used.
 _SCENES = 4
@@ -28,21 +30,28 @@ class _Desk:
         self._renderer: Renderer | None = None
         self._scenes: OrderedDict[str, Any] = OrderedDict()
 
-    def draw(self, payload: bytes, token: str, work: Captures, arrays: Arrays) -> None:
+    @contextlib.contextmanager
+    def renderer(self) -> Iterator[Renderer]:
+        """Give the renderer to one thread at a time."""
         with self._lock:
+            if self._renderer is None:
+                self._renderer = Renderer(device=device_of_worker())
+            try:
+                yield self._renderer
+            except ContextError:  # a lost one; the next call gets a new one
+                self._renderer = None
+                raise
+
+    def draw(self, payload: bytes, token: str, work: Captures, arrays: Arrays) -> None:
+        """Draw into arrays; the payload is read if its token is new."""
+        with self.renderer() as renderer:
             if token in self._scenes:
                 self._scenes.move_to_end(token)
             else:
                 self._scenes[token] = pickle.loads(payload)
                 while len(self._scenes) > _SCENES:
                     self._scenes.popitem(last=False)
-            if self._renderer is None:
-                self._renderer = Renderer(device=device_of_worker())
-            try:
-                work.draw(self._renderer, self._scenes[token], 0, arrays)
-            except ContextError:  # a lost one; the next chunk gets a new one
-                self._renderer = None
-                raise
+            work.draw(renderer, self._scenes[token], 0, arrays)
 
 
 _desk = _Desk()
@@ -53,6 +62,11 @@ def _after_fork() -> None:
 
 
 os.register_at_fork(after_in_child=_after_fork)
+
+
+def renderer_of_process() -> contextlib.AbstractContextManager[Renderer]:
+    """Give the renderer of this process, for one thread at a time."""
+    return _desk.renderer()
 
 
 def draw(payload: bytes, token: str, work: Captures, layout: Layout) -> Arrays:

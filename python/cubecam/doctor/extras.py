@@ -33,6 +33,10 @@ EXTRAS: dict[str, tuple[str, tuple[str, ...]]] = {
     "gltf": ("compressed glTF", ("DracoPy", "opengl_basisu", "zstd", "meshopt")),
     "ktx2": ("compressed KTX2", ("opengl_basisu", "zstd")),
     "video": ("MP4 without ffmpeg on PATH", ("imageio_ffmpeg",)),
+    "cluster": (
+        "captures by clusters of Dask, Zarr stores",
+        ("dask", "distributed", "xarray", "zarr"),
+    ),
     "truth": (
         "pictures by exact rays, and comparisons with them",
         ("embreex", "flip_evaluator", "skimage", "trimesh"),
