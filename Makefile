@@ -52,7 +52,7 @@ test-browser: docs $(VENV)/.deps-test $(VENV)/.deps-browser ## drive pages, Jupy
 	@$(PYTHON) scripts/system.py --browser
 	@$(PY) -m pytest -m browser tests/browser $(PYTEST_ARGS)
 
-test-cluster: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-cluster ## kill workers, schedulers and writers of Dask clusters, and look at what they leave; Python 3.11 or newer
+test-cluster: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-cluster $(VENV)/.deps-deploy ## kill workers, schedulers and writers of Dask clusters, and look at what they leave; Python 3.11 or newer
 	@$(PY) -m pytest -m cluster tests/cluster $(PYTEST_ARGS)
 
 test-interop: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-browser $(VENV)/.deps-light $(VENV)/.deps-peers $(VENV)/.bpy ## compare with three.js, Babylon.js, ktx-parse, Filament, Blender, moderngl, pygfx, VTK; needs npm and Chromium

@@ -261,7 +261,8 @@ def callable_of(name):
     """A callable by the name that FOUND gives; a method of a class is called with an object that is not made yet."""
     owner, _, member = name.rpartition(".")
     modules = {
-        module.__name__.rpartition(".")[2]: module for module in (*MODULES, cluster, explore, plot, truth)
+        module.__name__.rpartition(".")[2]: module
+        for module in (*MODULES, cluster, explore, plot, truth)
     }
     if not owner:
         return getattr(cc, name)
