@@ -101,8 +101,8 @@ def measure(name: str, device: str, rounds: int) -> dict[str, Any]:
     renderer = cc.Renderer(device=device)
     clock = time.process_time if renderer.info.software else time.perf_counter
 
-    def capture(count: int, pixels: str, outputs: tuple[str, ...]) -> cc.CubeMapBatch:
-        places = random.uniform(*box, (count, 3))
+    def capture(count: int, pixels: Any, outputs: tuple[str, ...]) -> cc.CubeMapBatch:
+        places = random.uniform(box[0], box[1], (count, 3))
         return renderer.capture_many(
             scene, places, size, format=pixels, outputs=outputs, progress=False
         )

@@ -31,7 +31,7 @@ SLURM, KUBERNETES = "docs/howto/slurm.md", "docs/howto/kubernetes.md"
 def written(page, folder):
     """Write the programs of a page, with fewer places, and its /stores in the folder."""
     for code in fenced(page, "py"):
-        name = re.match(r"# (\w+\.py)\n", code)[1]
+        (name,) = re.findall(r"\A# (\w+\.py)\n", code)
         code = code.replace("(1000, 3)", "(40, 3)").replace('"size": 64', '"size": 16')
         (folder / name).write_text(code.replace("/stores/", f"{folder}/"), encoding="utf-8")
 
@@ -99,7 +99,7 @@ def test_jobqueue_submits_what_the_page_says():
     from dask_jobqueue import SLURMCluster
 
     (code,) = (code for code in fenced(SLURM, "py") if "SLURMCluster(" in code)
-    call = re.search(r"SLURMCluster\((.*?)\n    \)", code, re.DOTALL)[1]
+    (call,) = re.findall(r"SLURMCluster\((.*?)\n    \)", code, re.DOTALL)
     asked = eval(f"dict({call})")
     jobs = SLURMCluster(**asked, scheduler_options={"dashboard_address": ":0"})
     try:
@@ -111,8 +111,8 @@ def test_jobqueue_submits_what_the_page_says():
         assert line in script
     for words in ("--nworkers 8", "--nthreads 1", "--lifetime 110m", "--local-directory /tmp"):
         assert words in script
-    per_worker = float(re.search(r"--memory-limit ([\d.]+)GiB", script)[1]) * 1024
-    assert per_worker > 750 + 100  # MiB, as the page says for faces of 256 pixels
+    (limit,) = re.findall(r"--memory-limit ([\d.]+)GiB", script)
+    assert float(limit) * 1024 > 750 + 100  # MiB, as the page says for faces of 256 pixels
 
 
 def test_the_program_of_kubernetes_writes_all_places(tmp_path):

@@ -39,6 +39,12 @@ def options_of(line):
     return found.groups()
 
 
+def the_number(pattern, text):
+    """The whole number that a pattern finds once in a text."""
+    (found,) = re.findall(pattern, text, re.MULTILINE)
+    return int(found)
+
+
 def check_calls_of_cubecam(code):
     """Names after `cc.` and `cluster.` exist, and calls of capture_to_zarr have no keyword that it lacks."""
     from cubecam import cluster
@@ -107,9 +113,7 @@ class TestSlurm:
         assert re.fullmatch(r"\d+[KMGT]?", options["mem"])
         assert re.fullmatch(r"(\d+-)?\d\d:\d\d:\d\d", options["time"])
         first, last = map(int, options["array"].split("-"))
-        tasks = int(
-            re.search(r"^TASKS = (\d+)", named_blocks(self.NAME)["part.py"], re.MULTILINE)[1]
-        )
+        tasks = the_number(r"^TASKS = (\d+)", named_blocks(self.NAME)["part.py"])
         assert (first, last) == (0, tasks - 1)
         assert lines[-1].endswith("python part.py")
         script = tmp_path / "captures.sbatch"
@@ -174,7 +178,7 @@ class TestKubernetes:
 
     def test_the_job_and_its_program_agree(self, job):
         code = named_blocks(self.NAME)["part.py"]
-        parts = int(re.search(r"^PARTS = (\d+)", code, re.MULTILINE)[1])
+        parts = the_number(r"^PARTS = (\d+)", code)
         assert job["spec"]["completions"] == parts
         (container,) = job["spec"]["template"]["spec"]["containers"]
         known = {entry["name"]: entry["value"] for entry in container["env"]}

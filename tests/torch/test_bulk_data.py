@@ -1,5 +1,7 @@
 """docs/howto/bulk_data.md: its lines of torch."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 import torch
@@ -13,7 +15,7 @@ NAME = "docs/howto/bulk_data.md"
 
 def test_the_lines_of_torch(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    scope = {}
+    scope: dict[str, Any] = {}
     (writes,) = (code for code in python_blocks(NAME) if '"captures.zarr", mode="w"' in code)
     (reads,) = (code for code in fenced(NAME, "py") if "import torch" in code)
     for code in (writes, reads):

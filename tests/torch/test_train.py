@@ -178,6 +178,31 @@ class TestLoaders:
         assert not any(part.is_shared() for part in here)
 
 
+def mapping_of(pointer):
+    """The line of /proc/self/maps with this address."""
+    for line in Path("/proc/self/maps").read_text().splitlines():
+        first, last = (int(end, 16) for end in line.split()[0].split("-"))
+        if first <= pointer < last:
+            return line
+    raise ValueError(f"expected an address that is mapped, got {pointer:#x}")
+
+
+def test_a_pool_gives_memory_that_its_processes_wrote():
+    from pooled import items
+    from rooms import numbered_room
+
+    with cc.Pool(workers=2) as pool:
+        (colors, distance), (more, _) = items(pool, 128)
+    assert tuple(colors.shape) == (64, 6, 32, 32, 4)
+    assert "memfd:cubecam" in mapping_of(colors.data_ptr())
+    assert "memfd:cubecam" in mapping_of(distance.data_ptr())
+    with cc.Renderer() as renderer:
+        options = {"format": "rgba16f", "outputs": ["distance"]}
+        for number, got in ((0, colors[0]), (63, colors[63]), (64, more[0])):
+            want = renderer.capture(numbered_room(0, number), size=32, **options)
+            assert_identical(got.numpy(), want.faces)
+
+
 def ours():
     """The living processes that this one has started."""
     return {
@@ -240,8 +265,8 @@ class TestTraining:
         from captures import Captures
         from train import train
 
-        runs = [train(Captures(4)[number] for number in range(4))[1] for _ in range(2)]
-        np.testing.assert_allclose(*runs, rtol=1e-3)
+        first, second = (train(Captures(4)[number] for number in range(4))[1] for _ in range(2))
+        np.testing.assert_allclose(first, second, rtol=1e-3)
 
     def test_the_program_prints_what_the_page_says_and_draws(self, folder):
         done = subprocess.run(
@@ -255,13 +280,26 @@ class TestTraining:
         assert done.returncode == 0, done.stderr
         assert "Traceback" not in done.stderr
         pattern = r"loss of the first 50 rooms (\S+), of the last 50 (\S+)\n.* below (\S+)\n"
-        first, last, factor = map(float, re.fullmatch(pattern, done.stdout).groups())
-        said = map(float, re.fullmatch(pattern, PRINTED[0]).groups())
-        np.testing.assert_allclose((first, last, factor), list(said), rtol=0.2)
+        found, said = (re.findall(pattern, text) for text in (done.stdout, PRINTED[0]))
+        np.testing.assert_allclose(np.array(found, float), np.array(said, float), rtol=0.2)
         picture = cc.load_image(folder / "train.png")
         third = picture.shape[1] // 3
         for start in (0, third, 2 * third):
             assert picture[:, start : start + third].std() > 20
+
+    def test_the_pool_prints_a_loss_that_falls(self, folder):
+        done = subprocess.run(
+            [sys.executable, "pooled.py"],
+            cwd=folder,
+            capture_output=True,
+            text=True,
+            timeout=400,
+            env={**os.environ, **dict(variables())},
+        )
+        assert done.returncode == 0, done.stderr
+        pattern = r"loss of the first 10 batches (\S+), of the last 10 (\S+)\n"
+        found, said = (re.findall(pattern, text) for text in (done.stdout, PRINTED[2]))
+        np.testing.assert_allclose(np.array(found, float), np.array(said, float), rtol=0.2)
 
 
 def variables():

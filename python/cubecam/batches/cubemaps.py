@@ -190,7 +190,7 @@ class CubeMapBatch:
         """Give `faces` to ``numpy.asarray``."""
         return array_of(self.faces, dtype, copy)
 
-    def __dlpack__(self, **wanted: Any) -> object:
+    def __dlpack__(self, **wanted: Any) -> Any:
         """Give `faces` to ``from_dlpack`` of numpy, torch, jax and others, which share the memory."""
         return dlpack_of(self.faces, **wanted)
 

@@ -95,7 +95,7 @@ class FrameBatch:
         """Give `color` to ``numpy.asarray``."""
         return array_of(self._colors(), dtype, copy)
 
-    def __dlpack__(self, **wanted: Any) -> object:
+    def __dlpack__(self, **wanted: Any) -> Any:
         """Give `color` to ``from_dlpack`` of numpy, torch, jax and others, which share the memory."""
         return dlpack_of(self._colors(), **wanted)
 
