@@ -2,6 +2,7 @@
 
 PYTHON ?= python3
 VENV := .venv
+TORCH := $(VENV)/torch
 PY := $(VENV)/bin/python
 PACKAGES := $(PY) scripts/packages.py
 PYTEST_ARGS ?=
@@ -28,7 +29,7 @@ CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-fast test-build test-browser test-cluster test-interop test-lowest dev lint format stubs bench curves gpu-check docs gallery notebooks sdist wheel wheels image conda release-check sanitize fuzz soak mutants clean
+.PHONY: help demo test test-fast test-build test-browser test-cluster test-interop test-torch test-lowest dev lint format stubs bench curves gpu-check docs gallery notebooks sdist wheel wheels image conda release-check sanitize fuzz soak mutants clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -40,7 +41,7 @@ test: $(VENV)/.installed $(VENV)/.deps-test ## set up, build, and run the whole 
 	@$(PYTEST) --durations=10 $(PYTEST_ARGS)
 
 test-fast: $(VENV)/.installed $(VENV)/.deps-test ## run the tests that take less than a second, without notebooks
-	@$(PYTEST) -m "not slow and not build and not browser and not cluster" tests $(PYTEST_ARGS)
+	@$(PYTEST) -m "not slow and not build and not browser and not cluster and not torch" tests $(PYTEST_ARGS)
 
 test-build: $(VENV)/.installed $(VENV)/.deps-test ## run all tests that compile C++: warnings as errors, ctest, example, materials
 	@PATH="$(abspath $(VENV))/bin:$$PATH"; \
@@ -51,12 +52,15 @@ test-browser: docs $(VENV)/.deps-test $(VENV)/.deps-browser ## drive pages, Jupy
 	@$(PYTHON) scripts/system.py --browser
 	@$(PY) -m pytest -m browser tests/browser $(PYTEST_ARGS)
 
-test-cluster: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-cluster ## kill workers, schedulers and writers of Dask clusters, and look at what they leave; Python 3.11 or newer
+test-cluster: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-cluster $(VENV)/.deps-deploy ## kill workers, schedulers and writers of Dask clusters, and look at what they leave; Python 3.11 or newer
 	@$(PY) -m pytest -m cluster tests/cluster $(PYTEST_ARGS)
 
 test-interop: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-browser $(VENV)/.deps-light $(VENV)/.deps-peers $(VENV)/.bpy ## compare with three.js, Babylon.js, ktx-parse, Filament, Blender, moderngl, pygfx, VTK; needs npm and Chromium
 	@$(PYTHON) scripts/system.py --browser
 	@CUBECAM_BPY_PYTHON=$(abspath $(VENV)/bpy/bin/python) $(PY) -m pytest -m interop tests/interop $(PYTEST_ARGS)
+
+test-torch: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.torch ## train with PyTorch while cubecam draws: docs/howto/train.md; downloads 0.5 GB unless PyTorch is there
+	@PYTHONPATH="$(TORCH)$${PYTHONPATH:+:$$PYTHONPATH}" OMP_WAIT_POLICY=passive $(PY) -m pytest -m torch tests/torch $(PYTEST_ARGS)
 
 test-lowest: $(VENV)/.deps $(VENV)/.deps-lowest ## build and test with the lowest versions that pyproject.toml declares; needs Python 3.10 or 3.11
 	@$(PY) scripts/lowest.py $(VENV)/lowest -n $(WORKERS) --dist loadfile --no-loadscope-reorder $(PYTEST_ARGS)
@@ -143,6 +147,11 @@ $(VENV)/.deps: pyproject.toml scripts/system.py scripts/packages.py
 
 $(VENV)/.deps-%: $(VENV)/.deps
 	@$(PACKAGES) $*
+	@touch $@
+
+# PyTorch for CPUs in a folder of its own: it has none of the libraries for GPUs that pip would bring.
+$(VENV)/.torch: $(VENV)/.deps scripts/torch_cpu.py
+	@$(PY) scripts/torch_cpu.py $(TORCH)
 	@touch $@
 
 # Blender's module needs Python 3.11 and numpy of its own.

@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import os
 import re
+import subprocess
 import sys
 import tempfile
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +34,8 @@ _PROJECTIONS = (
     "dual_paraboloid",
     "cylindrical",
 )
+#: Pages whose programs are files, which name themselves in their first line: which one draws, and what it needs.
+FILES = {"howto/train.md": ("main.py", "torch")}
 #: For each page of docs, the pictures that its programs write and their files in docs/images.
 PICTURES = {
     "howto/seams.md": {"seams.png": "howto-seams.png"},
@@ -46,6 +50,7 @@ PICTURES = {
     },
     "howto/orientation.md": {"orientation.png": "howto-orientation.png"},
     "howto/truth.md": {"error.png": "howto-truth.jpg"},
+    "howto/train.md": {"train.png": "howto-train.png"},
     "howto/own_materials.md": {"first.png": "howto-own-materials.jpg"},
     "explanation/views.md": {"views.png": "why-views.jpg"},
     "explanation/keys.md": {"keys.png": "why-keys.jpg"},
@@ -59,17 +64,35 @@ def main(pages: list[str]) -> None:
         if pages and page not in pages:
             continue
         text = (ROOT / "docs" / page).read_text(encoding="utf-8")
-        scope: dict[str, Any] = {}
+        if page in FILES and find_spec(FILES[page][1]) is None:
+            print(f"{page}: left out, it needs {FILES[page][1]}")
+            continue
         with tempfile.TemporaryDirectory() as folder:
-            os.chdir(folder)
-            for code in re.findall(r"```python\n(.*?)```", text, flags=re.DOTALL):
-                exec(compile(code, page, "exec"), scope)
-            os.chdir(ROOT)
+            if page in FILES:
+                run_file(text, Path(folder), FILES[page][0])
+            else:
+                run_blocks(text, folder, page)
             for picture, kept in pictures.items():
                 target = ROOT / "docs" / "images" / kept
                 colors = cc.load_image(Path(folder) / picture)[..., :3]
                 Image.fromarray(colors).save(target, quality=85)
                 print(f"{target.relative_to(ROOT)}: {target.stat().st_size // 1000} KB")
+
+
+def run_blocks(text: str, folder: str, page: str) -> None:
+    """Run the blocks of a page, one after the other, in this process."""
+    scope: dict[str, Any] = {}
+    os.chdir(folder)
+    for code in re.findall(r"```python\n(.*?)```", text, flags=re.DOTALL):
+        exec(compile(code, page, "exec"), scope)
+    os.chdir(ROOT)
+
+
+def run_file(text: str, folder: Path, name: str) -> None:
+    """Write the programs of a page into a folder, and run one of them."""
+    for code in re.findall(r"```py\n(# \w+\.py\n.*?)```", text, flags=re.DOTALL):
+        (folder / code.split()[1]).write_text(code, encoding="utf-8")
+    subprocess.run([sys.executable, name], cwd=folder, check=True)
 
 
 if __name__ == "__main__":

@@ -14,8 +14,9 @@ from hypothesis import settings
 
 from tests.helpers import DEVICE, device, need_layers, on_llvmpipe, only_on_llvmpipe
 
-#: Only `make test-browser` installs what these tests need.
-collect_ignore = [] if importlib.util.find_spec("playwright") else ["browser"]
+#: Only `make test-browser` and `make test-torch` install what these tests need.
+NEEDED = {"browser": "playwright", "torch": "torch"}
+collect_ignore = [name for name, of in NEEDED.items() if importlib.util.find_spec(of) is None]
 
 # nbformat imports jsonschema, which then compiles 38 grammars of addresses of the web: two seconds in each process of
 # pytest. No format that these check is in a notebook. jsonschema does without this package where it is not installed.

@@ -26,3 +26,15 @@ def run_block(code, name, folder, monkeypatch, scope=None):
     scope = {} if scope is None else scope
     exec(compile(code, name, "exec"), scope)
     return scope
+
+
+def rows_below(name, head):
+    """The cells of a document's table whose first line begins with `head`, row by row."""
+    lines = text_of(name).splitlines()
+    (start,) = (number for number, line in enumerate(lines) if line.startswith(head))
+    rows = []
+    for line in lines[start + 2 :]:
+        if not line.startswith("|"):
+            break
+        rows.append([cell.strip() for cell in line.strip("|").split("|")])
+    return rows

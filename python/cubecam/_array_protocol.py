@@ -14,6 +14,7 @@ from .io.screen import numbers_of
 if TYPE_CHECKING:
     from .typing import Pixels
 
+CPU = (1, 0)  # kDLCPU of DLPack, and its only device
 _NUMPY = tuple(int(part) for part in np.__version__.split(".")[:2])
 
 
@@ -93,11 +94,21 @@ def dlpack(
     A frame's colour is shared. The numbers of a cubemap and an image must not change: they are shared as read-only if
     the reader knows version 1 of DLPack, which can say so, and are copied otherwise.
     """
-    values = numbers_of(self)[0]
+    return dlpack_of(numbers_of(self)[0], stream, max_version, dl_device, copy)
+
+
+def dlpack_of(
+    values: npt.NDArray[Any],
+    stream: object = None,
+    max_version: tuple[int, int] | None = None,
+    dl_device: tuple[int, int] | None = None,
+    copy: bool | None = None,
+) -> object:
+    """Give an array to ``from_dlpack``; see `dlpack`."""
     versioned = max_version is not None and max_version[0] >= 1 and _NUMPY >= (2, 1)
     if stream is not None:
         raise BufferError(f"stream: expected None for numbers in main memory, got {stream!r}")
-    if dl_device is not None and tuple(dl_device) != dlpack_device(self):
+    if dl_device is not None and tuple(dl_device) != CPU:
         raise BufferError(f"dl_device: expected main memory, (1, 0), got {dl_device}")
     if copy is False and not values.flags.writeable and not versioned:
         raise BufferError(
@@ -111,6 +122,6 @@ def dlpack(
     return values.__dlpack__(**options)
 
 
-def dlpack_device(self: Frame | CubeMap | Image) -> tuple[int, int]:
+def dlpack_device(self: object) -> tuple[int, int]:
     """Give the device of the numbers to ``from_dlpack``: main memory."""
-    return 1, 0  # kDLCPU
+    return CPU

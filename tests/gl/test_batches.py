@@ -270,6 +270,8 @@ def test_frames_of_many_cameras(renderer, rng):
         assert np.array_equal(batch.distance[i], frame.distance)
         assert np.array_equal(batch.normal[i], frame.normal)
         assert batch.encoding == frame.encoding == "srgb"
+    assert np.shares_memory(np.from_dlpack(batch), batch.color)
+    assert batch.__dlpack_device__() == (1, 0)
 
 
 def test_frames_without_a_colour(renderer, rng):
@@ -278,8 +280,9 @@ def test_frames_without_a_colour(renderer, rng):
     )
     assert batch.color is None
     assert batch.id.shape == (1, 6, 8)
-    with pytest.raises(ValueError, match="a colour"):
-        np.asarray(batch)
+    for read in (np.asarray, np.from_dlpack):
+        with pytest.raises(ValueError, match="a colour"):
+            read(batch)
 
 
 @pytest.mark.parametrize(

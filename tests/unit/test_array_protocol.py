@@ -92,3 +92,23 @@ def test_repr_tells_what_there_is():
         "CubeMap(size=4, channels=3, dtype=float32, mipmaps=False, encoding='linear')"
     )
     assert repr(cc.Image(FACES[0])) == "Image(4 x 4, 3 channels, float32, linear)"
+
+
+BATCHES = {
+    "cubes": lambda: cc.CubeMapBatch(np.stack([FACES, 2 * FACES])),
+    "some cubes": lambda: cc.CubeMapBatch(np.stack([FACES, FACES, 2 * FACES]))[1:],
+}
+
+
+@pytest.mark.parametrize("name", BATCHES)
+def test_a_batch_is_shared_by_dlpack_and_may_be_written(name):
+    batch = BATCHES[name]()
+    got = np.from_dlpack(batch)
+    assert_identical(got, np.stack([FACES, 2 * FACES]))
+    assert np.shares_memory(got, batch.faces)
+    old = np.from_dlpack(OldReader(batch))
+    assert np.shares_memory(old, batch.faces)
+    got[1] = 3
+    assert (batch.faces[1] == 3).all()
+    with pytest.raises(BufferError, match=r"expected main memory, \(1, 0\), got \(2, 0\)"):
+        batch.__dlpack__(dl_device=(2, 0))

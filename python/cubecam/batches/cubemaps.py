@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 import numpy.typing as npt
 
-from .._array_protocol import array_of
+from .._array_protocol import CPU, array_of, dlpack_of
 from .._calls import checked_call
 from .._checks import one_of, text_of
 from .._core import CubeMap, Scene, _cube_of_batch, _to_array
@@ -189,6 +189,14 @@ class CubeMapBatch:
     ) -> npt.NDArray[Any]:
         """Give `faces` to ``numpy.asarray``."""
         return array_of(self.faces, dtype, copy)
+
+    def __dlpack__(self, **wanted: Any) -> Any:
+        """Give `faces` to ``from_dlpack`` of numpy, torch, jax and others, which share the memory."""
+        return dlpack_of(self.faces, **wanted)
+
+    def __dlpack_device__(self) -> tuple[int, int]:
+        """Give the device of `faces` to ``from_dlpack``: main memory."""
+        return CPU
 
     def __repr__(self) -> str:
         names = f", outputs={tuple(self.outputs)}" if self.outputs else ""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy.typing as npt
 
-from .._array_protocol import array_of
+from .._array_protocol import CPU, array_of, dlpack_of
 from .._calls import checked_call
 from .._core import Scene
 from ._outputs import Output, OutputArrays
@@ -93,9 +93,20 @@ class FrameBatch:
         self, dtype: npt.DTypeLike | None = None, copy: bool | None = None
     ) -> npt.NDArray[Any]:
         """Give `color` to ``numpy.asarray``."""
+        return array_of(self._colors(), dtype, copy)
+
+    def __dlpack__(self, **wanted: Any) -> Any:
+        """Give `color` to ``from_dlpack`` of numpy, torch, jax and others, which share the memory."""
+        return dlpack_of(self._colors(), **wanted)
+
+    def __dlpack_device__(self) -> tuple[int, int]:
+        """Give the device of `color` to ``from_dlpack``: main memory."""
+        return CPU
+
+    def _colors(self) -> Pixels:
         if self.color is None:
             raise ValueError("expected frames with a colour, got a batch with format=None")
-        return array_of(self.color, dtype, copy)
+        return self.color
 
     def __repr__(self) -> str:
         names = f", outputs={tuple(self.outputs)}" if self.outputs else ""

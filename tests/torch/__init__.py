@@ -1,0 +1,1 @@
+"""docs/howto/train.md with PyTorch: make test-torch."""
