@@ -158,10 +158,11 @@ Notes
 The order is that of the quadric errors of M. Garland and P. Heckbert, "Surface Simplification Using Quadric Error
 Metrics", SIGGRAPH 1997, with attributes after H. Hoppe, "New Quadric Metric for Simplifying Meshes with Appearance
 Attributes", IEEE Visualization 1999. The error of a level is the greater of two. One is an upper bound for the
-Hausdorff distance of the surfaces, at most 5 % above it, which is found by cutting triangles (after M. Tang, M. Lee and
-Y. Kim, "Interactive Hausdorff Distance Computation for General Polygonal Models", SIGGRAPH 2009). The other is the
-greatest root of a mean square by which attributes differ round a vertex, where a difference of 1 of normals or colours
-is a quarter of the mesh's extent, and uvs are as long as they are on the surface on average: that one is an estimate.
+Hausdorff distance of the surfaces, above it by at most 5 % or 1e-4 of the mesh's extent, which is found by cutting
+triangles (after M. Tang, M. Lee and Y. Kim, "Interactive Hausdorff Distance Computation for General Polygonal Models",
+SIGGRAPH 2009). The other is the greatest root of a mean square by which normals, uvs or colours differ round a vertex,
+where a difference of 1 counts as the length on the surface over which they change by 1 on average, at most a quarter of
+the mesh's extent: that one is an estimate.
 
 Nodes draw the exact mesh where a level would not fit: with joints or morph targets; with materials that move vertices
 or count triangles, that set ``flat_shading`` or need tangents that the mesh lacks, and glass that follows light through

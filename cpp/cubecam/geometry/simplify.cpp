@@ -20,8 +20,8 @@
 namespace cubecam {
 namespace {
 
-/// What a difference of 1 of a normal or a colour is worth, as a share of the mesh's extent.
-constexpr double attribute_share = 0.25;
+/// The most that a difference of 1 of an attribute is worth, as a share of the mesh's extent.
+constexpr double longest_share = 0.25;
 /// How much the sides of borders and seams count, relative to the area of a square over them.
 constexpr double border_weight = 10.0;
 constexpr double seam_weight = 1.0;
@@ -31,6 +31,8 @@ constexpr double least_cosine = 0.25;
 constexpr double share_of_length = 1e-6;
 /// No edge is contracted at a greater error, as a share of the extent.
 constexpr double greatest_share = 0.25;
+/// More neighbours of one vertex are only kept: work grows with their square.
+constexpr std::size_t most_neighbours = 24;
 /// A level has at most this share of the triangles of the one before, or it is left out.
 constexpr double worthwhile = 0.95;
 
@@ -87,47 +89,74 @@ struct Attributes {
     }
 };
 
-double area_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    return 0.5 * glm::length(glm::cross(b - a, c - a));
-}
+/// The slopes along two sides e and f of a triangle, with this normal, of functions that change by
+/// 1 along the one and not along the other: the gradient in its plane is a sum of both.
+struct SideSlopes {
+    glm::dvec3 along_e, along_f;
 
-/// The mean length of a unit of texture coordinates on the surface; 0: they have no area.
-double length_of_uvs(const MeshData& mesh, const std::vector<glm::vec2>& uvs) {
-    double area = 0.0;
-    double uv_area = 0.0;
-    const std::vector<glm::vec3>& positions = *mesh.positions();
-    for (const glm::uvec3& t : *mesh.triangles()) {
-        area += area_of(glm::dvec3(positions[t.x]), glm::dvec3(positions[t.y]),
-                        glm::dvec3(positions[t.z]));
-        const glm::dvec2 e(uvs[t.y] - uvs[t.x]);
-        const glm::dvec2 f(uvs[t.z] - uvs[t.x]);
-        uv_area += 0.5 * std::abs(e.x * f.y - e.y * f.x);
+    SideSlopes(const glm::dvec3& e, const glm::dvec3& f, const glm::dvec3& normal, double area)
+        : along_e(glm::cross(f, normal) / (2.0 * area)),
+          along_f(glm::cross(normal, e) / (2.0 * area)) {}
+};
+
+/// Numbers of each vertex that belong together, such as normals.
+struct AttributePart {
+    const float* from;
+    std::size_t numbers;
+
+    glm::dvec4 of(std::uint32_t vertex) const {
+        glm::dvec4 found(0.0);
+        for (std::size_t i = 0; i < numbers; ++i) {
+            found[static_cast<int>(i)] = static_cast<double>(from[vertex * numbers + i]);
+        }
+        return found;
     }
-    return uv_area > 0.0 ? std::sqrt(area / uv_area) : 0.0;
+};
+
+/// The length on the surface over which an attribute changes by 1 on average, at most `longest`.
+double length_of(const AttributePart& part, const MeshData& mesh, double longest) {
+    const std::vector<glm::vec3>& positions = *mesh.positions();
+    double whole = 0.0;
+    double change = 0.0;
+    for (const glm::uvec3& t : *mesh.triangles()) {
+        const glm::dvec3 e(positions[t.y] - positions[t.x]);
+        const glm::dvec3 f(positions[t.z] - positions[t.x]);
+        const glm::dvec3 cross = glm::cross(e, f);
+        const double area = 0.5 * glm::length(cross);
+        if (!(area > 0.0)) continue;
+        const SideSlopes sides(e, f, cross / (2.0 * area), area);
+        const glm::dvec4 by_e = part.of(t.y) - part.of(t.x);
+        const glm::dvec4 by_f = part.of(t.z) - part.of(t.x);
+        double squared = 0.0;
+        for (int i = 0; i < 4; ++i) {
+            const glm::dvec3 slope = by_e[i] * sides.along_e + by_f[i] * sides.along_f;
+            squared += glm::dot(slope, slope);
+        }
+        whole += area;
+        change += area * std::sqrt(squared);
+    }
+    return whole < longest * change ? whole / change : longest;
 }
 
 Attributes attributes_of(const MeshData& mesh, double extent) {
-    struct Part {
-        const float* from;
-        std::size_t numbers;
-        double scale;
-    };
-    std::vector<Part> parts{{&mesh.normals()->front().x, 3, attribute_share * extent}};
-    if (mesh.colors()) parts.push_back({&mesh.colors()->front().x, 4, attribute_share * extent});
+    std::vector<AttributePart> parts{{&mesh.normals()->front().x, 3}};
+    if (mesh.colors()) parts.push_back({&mesh.colors()->front().x, 4});
     for (const int set : {0, 1}) {
-        if (!mesh.uvs(set)) continue;
-        const double scale = length_of_uvs(mesh, *mesh.uvs(set));
-        parts.push_back({&mesh.uvs(set)->front().x, 2, scale});
+        if (mesh.uvs(set)) parts.push_back({&mesh.uvs(set)->front().x, 2});
+    }
+    std::vector<double> lengths;
+    for (const AttributePart& part : parts) {
+        lengths.push_back(length_of(part, mesh, longest_share * extent));
     }
     Attributes made;
-    for (const Part& part : parts) made.count += part.numbers;
+    for (const AttributePart& part : parts) made.count += part.numbers;
     const std::size_t vertices = mesh.positions()->size();
     made.values.reserve(made.count * vertices);
     for (std::size_t v = 0; v < vertices; ++v) {
-        for (const Part& part : parts) {
-            for (std::size_t i = 0; i < part.numbers; ++i) {
-                made.values.push_back(part.scale *
-                                      static_cast<double>(part.from[v * part.numbers + i]));
+        for (std::size_t p = 0; p < parts.size(); ++p) {
+            const glm::dvec4 values = parts[p].of(static_cast<std::uint32_t>(v));
+            for (std::size_t i = 0; i < parts[p].numbers; ++i) {
+                made.values.push_back(lengths[p] * values[static_cast<int>(i)]);
             }
         }
     }
@@ -199,7 +228,9 @@ public:
             if (next.stamp != stamps_[next.from]) continue;
             const double greatest = greatest_share * extent_;
             if (next.cost > greatest * greatest) return;
-            const std::optional<Contraction> found = contraction(next.from, next.to);
+            const std::optional<Contraction> found =
+                contraction(next.from, next.to, neighbours(next.from),
+                            std::numeric_limits<double>::infinity());
             if (!found) {
                 queue(next.from);
                 continue;
@@ -294,17 +325,14 @@ private:
                         double area) {
         const glm::dvec3 e = p[1] - p[0];
         const glm::dvec3 f = p[2] - p[0];
-        // The gradient in the plane: dot(slope, e) and dot(slope, f) are the differences.
-        const double twice = 2.0 * area;
-        const glm::dvec3 along_e = glm::cross(f, normal) / twice;
-        const glm::dvec3 along_f = glm::cross(normal, e) / twice;
+        const SideSlopes sides(e, f, normal, area);
         const glm::uvec3& v = triangles_[t];
         Quadric sum;
         sum.weight = area;
         for (std::size_t k = 0; k < attributes_.count; ++k) {
             const double s = attributes_.of(v.x)[k];
-            const glm::dvec3 slope = (attributes_.of(v.y)[k] - s) * along_e +
-                                     (attributes_.of(v.z)[k] - s) * along_f;
+            const glm::dvec3 slope = (attributes_.of(v.y)[k] - s) * sides.along_e +
+                                     (attributes_.of(v.z)[k] - s) * sides.along_f;
             const double constant = s - glm::dot(slope, p[0]);
             sum.add(slope, constant, area);
             for (int i = 0; i < 3; ++i) {
@@ -361,9 +389,10 @@ private:
         return std::max(0.0, sum / quadric.weight);
     }
 
-    /// The contraction of an edge, if it leaves no tear and no fold.
-    std::optional<Contraction> contraction(std::uint32_t from, std::uint32_t to) {
-        const std::vector<Neighbour> near = neighbours(from);
+    /// The contraction of an edge, if it costs less than `most` and leaves no tear and no fold.
+    /// @param near the neighbours of `from`.
+    std::optional<Contraction> contraction(std::uint32_t from, std::uint32_t to,
+                                           const std::vector<Neighbour>& near, double most) {
         int shared = 0;
         bool border = false;
         for (const Neighbour& neighbour : near) {
@@ -372,16 +401,8 @@ private:
             if (neighbour.place == to) shared = neighbour.triangles;
         }
         if (shared == 0 || (border && shared != 1)) return std::nullopt;
-        // The link condition (T. Dey et al., "Topology Preserving Edge Contraction", 1999).
-        int common = 0;
-        for (const Neighbour& neighbour : neighbours(to)) {
-            common += static_cast<int>(std::any_of(
-                near.begin(), near.end(),
-                [&](const Neighbour& other) { return other.place == neighbour.place; }));
-        }
-        if (common != shared) return std::nullopt;
         Contraction made{from, to, {}, 0.0, 0.0};
-        if (!find_vertices(made) || folds(from, to)) return std::nullopt;
+        if (!find_vertices(made)) return std::nullopt;
         const Quadric& quadric = quadrics_[from];
         const double moved = glm::distance(points_[from], points_[to]);
         const double planes =
@@ -390,6 +411,20 @@ private:
             made.attributes = std::max(made.attributes, attribute_cost(vertex, other));
         }
         made.cost = planes + made.attributes + share_of_length * moved * moved;
+        if (!(made.cost < most)) return std::nullopt;
+        // The link condition (T. Dey et al., "Topology Preserving Edge Contraction", 1999).
+        const std::vector<Neighbour> beyond = neighbours(to);
+        int common = 0;
+        for (const Neighbour& neighbour : beyond) {
+            common += static_cast<int>(std::any_of(
+                near.begin(), near.end(),
+                [&](const Neighbour& other) { return other.place == neighbour.place; }));
+        }
+        if (common != shared) return std::nullopt;
+        const std::size_t joined =
+            near.size() + beyond.size() - 2 - static_cast<std::size_t>(common);
+        if (joined > std::max(most_neighbours, beyond.size())) return std::nullopt;
+        if (folds(from, to)) return std::nullopt;
         return made;
     }
 
@@ -450,13 +485,13 @@ private:
     void queue(std::uint32_t place) {
         ++stamps_[place];
         if (around_[place].empty()) return;
+        const std::vector<Neighbour> near = neighbours(place);
         std::optional<Contraction> best;
-        for (const Neighbour& neighbour : neighbours(place)) {
-            const auto found = contraction(place, neighbour.place);
-            if (!found) continue;
-            if (!best || std::tie(found->cost, found->to) < std::tie(best->cost, best->to)) {
-                best = found;
-            }
+        for (const Neighbour& neighbour : near) {
+            auto found =
+                contraction(place, neighbour.place, near,
+                            best ? best->cost : std::numeric_limits<double>::infinity());
+            if (found) best = std::move(found);
         }
         if (best) waiting_.push({best->cost, place, best->to, stamps_[place]});
     }

@@ -19,8 +19,8 @@ namespace cubecam {
 ///
 /// The error of a level is the greater of two: an upper bound for the distance of the surfaces
 /// (surface_distance.hpp), and the greatest root of a mean square by which attributes differ. For
-/// the latter a texture coordinate is as long as it is on the surface on average, and a difference
-/// of 1 of a colour or a normal is a quarter of the mesh's extent.
+/// the latter a difference of 1 of normals, texture coordinates or colours counts as the length on
+/// the surface over which these change by 1 on average, at most a quarter of the mesh's extent.
 ///
 /// @throws std::invalid_argument for a ratio that is not from 0.1 to 0.9.
 std::vector<MeshLevel> simplified_levels(const MeshData& mesh, double ratio);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 namespace cubecam {
 namespace {
@@ -14,10 +15,13 @@ constexpr std::size_t triangles_of_leaf = 4;
 /// How much larger than the distance the bound may be.
 constexpr double slack = 1.05;
 /// Distances below this share of the extent are not told from 0.
-constexpr double least_share = 1e-5;
+constexpr double least_share = 1e-4;
 /// A triangle is cut at most so many times, one cut in the other.
 constexpr int deepest_cut = 40;
-constexpr int steps_of_cut = 12;
+constexpr int steps_of_cut = 24;
+constexpr double thinnest_cut = 0.01;
+/// Distances that differ by less, as a share of the least one, are equal.
+constexpr double share_of_tie = 1e-3;
 
 /// The point of a triangle that is nearest to another point (C. Ericson, "Real-Time Collision
 /// Detection", 2005, section 5.1.5).
@@ -57,8 +61,12 @@ double squared_distance(const glm::dvec3& point, const glm::dvec3& low, const gl
 /// A point of a triangle, and what is nearest to it on the other surface.
 struct CutCorner {
     glm::dvec3 place;
-    double distance;
-    std::uint32_t nearest;
+    NearestTriangles::Found nearest;
+
+    double distance() const { return nearest.distance; }
+    std::span<const std::uint32_t> triangles() const {
+        return {nearest.triangles.data(), nearest.count};
+    }
 };
 
 struct CutPiece {
@@ -84,7 +92,7 @@ public:
                 if (found[vertex]) continue;
                 found[vertex] = true;
                 corners[vertex] = corner_at(glm::dvec3(positions_[vertex]));
-                known = std::max(known, corners[vertex].distance);
+                known = std::max(known, corners[vertex].distance());
             }
         }
         double bound = 0.0;
@@ -97,8 +105,9 @@ public:
                 poll_interrupts(steps++);
                 const CutPiece piece = waiting.back();
                 waiting.pop_back();
-                const double most = bound_of(piece);
-                if (most <= std::max(slack * known, least_) || piece.cuts >= deepest_cut) {
+                const double enough = std::max(slack * known, least_);
+                const double most = bound_of(piece, enough);
+                if (most <= enough || piece.cuts >= deepest_cut) {
                     bound = std::max(bound, most);
                 } else {
                     cut(piece, known, waiting);
@@ -110,66 +119,94 @@ public:
 
 private:
     CutCorner corner_at(const glm::dvec3& place) const {
-        const NearestTriangles::Found found = to_.find(place);
-        return {place, found.distance, found.triangle};
+        return {place, to_.find(place, share_of_tie * least_)};
     }
 
-    double bound_of(const CutPiece& piece) const {
-        // From the corner with the least distance, no point is farther away than the longer side.
+    /// An upper bound of the distances of a piece; the first one found that is `enough`.
+    double bound_of(const CutPiece& piece, double enough) const {
         double least = std::numeric_limits<double>::infinity();
-        for (int c = 0; c < 3; ++c) {
-            const CutCorner& corner = piece.corners[static_cast<std::size_t>(c)];
+        for (const CutCorner& corner : piece.corners) {
+            // No point is farther away than by the way to this corner.
             double reach = 0.0;
-            double most = 0.0;
             for (const CutCorner& other : piece.corners) {
                 reach = std::max(reach, glm::distance(other.place, corner.place));
-                most = std::max(most, &other == &corner
-                                          ? corner.distance
-                                          : to_.distance(other.place, corner.nearest));
             }
-            least = std::min({least, most, corner.distance + reach});
+            least = std::min(least, corner.distance() + reach);
+        }
+        for (const CutCorner& corner : piece.corners) {
+            for (const std::uint32_t triangle : corner.triangles()) {
+                if (least <= enough) return least;
+                double most = 0.0;
+                for (const CutCorner& other : piece.corners) {
+                    most = std::max(most, to_.distance(other.place, triangle));
+                    if (most >= least) break;
+                }
+                least = std::min(least, most);
+            }
         }
         return least;
     }
 
+    /// Of the triangles that are nearest to a corner the one that is nearest to another.
+    std::uint32_t towards(const CutCorner& from, const CutCorner& to) const {
+        std::uint32_t best = from.triangles().front();
+        double least = std::numeric_limits<double>::infinity();
+        for (const std::uint32_t triangle : from.triangles()) {
+            const double away = to_.distance(to.place, triangle);
+            if (away < least) {
+                least = away;
+                best = triangle;
+            }
+        }
+        return best;
+    }
+
+    static bool share_a_triangle(const CutCorner& a, const CutCorner& b) {
+        const std::span<const std::uint32_t> known = b.triangles();
+        return std::any_of(a.triangles().begin(), a.triangles().end(), [&](std::uint32_t t) {
+            return std::find(known.begin(), known.end(), t) != known.end();
+        });
+    }
+
     /// Cuts the longest side whose ends are nearest to different triangles, where both are equally
-    /// far, or in the middle.
+    /// far; or the longest side in the middle.
     void cut(const CutPiece& piece, double& known, std::vector<CutPiece>& to) const {
         std::size_t side = 0;
         double longest = -1.0;
+        bool differ = false;
         for (std::size_t i = 0; i < 3; ++i) {
             const CutCorner& a = piece.corners[i];
             const CutCorner& b = piece.corners[(i + 1) % 3];
             const double length = glm::distance(a.place, b.place);
-            if (a.nearest == b.nearest || length <= longest) continue;
+            const bool apart = !share_a_triangle(a, b);
+            if (differ && !apart) continue;
+            if (apart == differ && length <= longest) continue;
+            differ = apart;
             longest = length;
             side = i;
         }
         const CutCorner& a = piece.corners[side];
         const CutCorner& b = piece.corners[(side + 1) % 3];
         const CutCorner& c = piece.corners[(side + 2) % 3];
-        double low = 0.0;
-        double high = 1.0;
-        for (int step = 0; step < steps_of_cut; ++step) {
-            const double middle = 0.5 * (low + high);
-            const glm::dvec3 place = glm::mix(a.place, b.place, middle);
-            const bool near_a = to_.distance(place, a.nearest) < to_.distance(place, b.nearest);
-            (near_a ? low : high) = middle;
+        double at = 0.5;
+        if (differ) {
+            const std::uint32_t near_a = towards(a, b);
+            const std::uint32_t near_b = towards(b, a);
+            double low = 0.0;
+            double high = 1.0;
+            for (int step = 0; step < steps_of_cut; ++step) {
+                const double middle = 0.5 * (low + high);
+                const glm::dvec3 place = glm::mix(a.place, b.place, middle);
+                const bool nearer = to_.distance(place, near_a) < to_.distance(place, near_b);
+                (nearer ? low : high) = middle;
+            }
+            // Not too near to an end, so that pieces get small.
+            if (low > thinnest_cut && high < 1.0 - thinnest_cut) at = 0.5 * (low + high);
         }
-        double at = 0.5 * (low + high);
-        if (at < 0.02 || at > 0.98 || piece.cuts % 4 == 3) at = 0.5;
         const CutCorner middle = corner_at(glm::mix(a.place, b.place, at));
-        known = std::max(known, middle.distance);
-        // At the cut both triangles are equally far: each part counts from its own one.
-        const double to_a = to_.distance(middle.place, a.nearest);
-        const double to_b = to_.distance(middle.place, b.nearest);
-        const auto part = [&](const CutCorner& end, double to_end) {
-            const bool same = to_end <= middle.distance * (1.0 + 1e-9) + 1e-3 * least_;
-            return CutCorner{middle.place, same ? to_end : middle.distance,
-                             same ? end.nearest : middle.nearest};
-        };
-        to.push_back({{a, part(a, to_a), c}, piece.cuts + 1});
-        to.push_back({{part(b, to_b), b, c}, piece.cuts + 1});
+        known = std::max(known, middle.distance());
+        to.push_back({{a, middle, c}, piece.cuts + 1});
+        to.push_back({{middle, b, c}, piece.cuts + 1});
     }
 
     const std::vector<glm::vec3>& positions_;
@@ -245,9 +282,28 @@ double NearestTriangles::distance(const glm::dvec3& point, std::uint32_t triangl
     return glm::distance(point, nearest_point(point, corners(triangle)));
 }
 
-NearestTriangles::Found NearestTriangles::find(const glm::dvec3& point) const {
-    double best = std::numeric_limits<double>::infinity();  // squared
-    Found found{best, 0};
+NearestTriangles::Found NearestTriangles::find(const glm::dvec3& point, double tie) const {
+    double best = std::numeric_limits<double>::infinity();
+    double limit = best;  // squared: farther ones do not count
+    Found found{best, {}, 0};
+    std::array<double, Found::most> distances{};
+    const auto add = [&](double squared, std::uint32_t triangle) {
+        const double away = std::sqrt(squared);
+        if (away < best) {
+            best = away;
+            limit = (best + tie) * (best + tie);
+        }
+        std::size_t place = found.count;
+        if (place < Found::most) {
+            ++found.count;
+        } else {
+            const auto worst = std::max_element(distances.begin(), distances.end());
+            if (*worst <= away) return;
+            place = static_cast<std::size_t>(worst - distances.begin());
+        }
+        distances[place] = away;
+        found.triangles[place] = triangle;
+    };
     struct Waiting {
         std::uint32_t box;
         double distance;
@@ -257,16 +313,13 @@ NearestTriangles::Found NearestTriangles::find(const glm::dvec3& point) const {
     stack[count++] = {0, 0.0};
     while (count > 0) {
         const Waiting next = stack[--count];
-        if (next.distance >= best) continue;
+        if (next.distance > limit) continue;
         const Box& box = boxes_[next.box];
         if (box.count > 0) {
             for (std::uint32_t i = box.first; i < box.first + box.count; ++i) {
                 const glm::dvec3 away = point - nearest_point(point, corners(order_[i]));
                 const double squared = glm::dot(away, away);
-                if (squared < best) {
-                    best = squared;
-                    found.triangle = order_[i];
-                }
+                if (squared <= limit) add(squared, order_[i]);
             }
             continue;
         }
@@ -276,10 +329,15 @@ NearestTriangles::Found NearestTriangles::find(const glm::dvec3& point) const {
             away[i] = squared_distance(point, boxes_[children[i]].low, boxes_[children[i]].high);
         }
         const int nearer = away[0] <= away[1] ? 0 : 1;
-        if (away[1 - nearer] < best) stack[count++] = {children[1 - nearer], away[1 - nearer]};
-        if (away[nearer] < best) stack[count++] = {children[nearer], away[nearer]};
+        if (away[1 - nearer] <= limit) stack[count++] = {children[1 - nearer], away[1 - nearer]};
+        if (away[nearer] <= limit) stack[count++] = {children[nearer], away[nearer]};
     }
-    found.distance = std::sqrt(best);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < found.count; ++i) {
+        if (distances[i] <= best + tie) found.triangles[kept++] = found.triangles[i];
+    }
+    found.count = kept;
+    found.distance = best;
     return found;
 }
 

@@ -17,12 +17,16 @@ public:
     NearestTriangles(const std::vector<glm::vec3>& positions,
                      const std::vector<glm::uvec3>& triangles);
 
+    /// The distance of a point, and triangles that are so near: one, or some of those that share
+    /// the nearest point.
     struct Found {
+        static constexpr std::size_t most = 8;
         double distance;
-        std::uint32_t triangle;
+        std::array<std::uint32_t, most> triangles;
+        std::size_t count;
     };
-    /// The triangle that is nearest to a point.
-    Found find(const glm::dvec3& point) const;
+    /// @param tie triangles may be farther away than the nearest one by so much.
+    Found find(const glm::dvec3& point, double tie) const;
     /// The distance of a point from one triangle.
     double distance(const glm::dvec3& point, std::uint32_t triangle) const;
 
@@ -44,7 +48,7 @@ private:
 
 /// An upper bound for the greatest distance of a point of either surface from the other one, their
 /// Hausdorff distance. Both are triangles between the same vertices. It is at most 5 % larger than
-/// the distance itself, where that is more than 1e-5 of the vertices' extent.
+/// the distance itself, where that is more than 1e-4 of the vertices' extent.
 ///
 /// A point of a triangle is at most as far from another triangle as the farthest of the corners,
 /// since that distance is convex. Where this bound is too large for the triangles that are nearest
