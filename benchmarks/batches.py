@@ -7,6 +7,9 @@
 must be those of single captures, and its pictures those of the program in moderngl but for rounding, before a time is
 taken. Groups of 32 cubemaps take turns, and the figure is the median of the groups' ratios of CPU time of all threads.
 
+**Levels:** the same field of teapots, or of knots of 60,000 triangles together, with levels of detail within half a pixel
+or four of the exact pictures, over a batch without.
+
 **Empty:** a scene with a background alone, captured from places that change: what a cubemap costs besides drawing. The
 results' memory is new for each frame, or that of the frame before.
 
@@ -138,6 +141,29 @@ def field_marks(rounds: int, **options: Any) -> Section:
     return section
 
 
+LOD_ERRORS = (0.5, 4.0)  # pixels
+
+
+def level_marks(rounds: int, **options: Any) -> Section:
+    """Batches with levels of detail over one of exact meshes."""
+    section = Section("levels", "a cubemap of the field with levels of detail, ms of CPU time")
+    for triangles in (0, 60_000):
+        given = {"probes": GROUP, "triangles": triangles, **options}
+        with ExitStack() as stack:
+            exact = _started(stack, BATCH, given)
+            others = [_started(stack, BATCH, {**given, "max_lod_error": e}) for e in LOD_ERRORS]
+            want = arrays_of(exact, 1)
+            found = [arrays_of(program, 1) for program in others]
+            own, *times = turns([exact, *others], rounds)
+        name = f"knots of {triangles:,} triangles" if triangles else "teapots"
+        for error, arrays, time in zip(LOD_ERRORS, found, times, strict=True):
+            work = f"{name}, within {error:g} pixels, over exact meshes"
+            section.marks.append(_mark(work, time, own, None, GROUP))
+            off = (arrays["distance"] != want["distance"]).mean()
+            section.notes.append(f"{name}, {error:g} pixels: {off:.1%} of the distances differ")
+    return section
+
+
 def empty_marks(rounds: int) -> Section:
     """A cubemap of a batch over a single capture, where nothing is drawn."""
     section = Section("empty", "a cubemap of an empty scene, ms of CPU time")
@@ -192,6 +218,7 @@ def run(quick: bool) -> list[Section]:
     sections = []
     measures = [
         partial(field_marks, rounds),
+        partial(level_marks, rounds),
         partial(empty_marks, rounds),
         partial(memory_marks, 1000 if quick else 10_000),
     ]

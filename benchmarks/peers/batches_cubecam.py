@@ -12,8 +12,8 @@ import cubecam as cc
 from .. import field
 
 
-def make_scene(plan: field.Field) -> cc.Scene:
-    """The field as a scene."""
+def make_scene(plan: field.Field, levels: bool = False) -> cc.Scene:
+    """The field as a scene; `levels`: its meshes have levels of detail."""
     found = cc.Scene(background=field.CLEAR)
     if not plan.nodes:
         return found
@@ -33,6 +33,8 @@ def make_scene(plan: field.Field) -> cc.Scene:
         cc.Mesh(arrays.positions, arrays.indices, normals=arrays.normals)
         for arrays in (plan.ground, plan.mesh)
     )
+    if levels:
+        ground, mesh = ground.with_levels(), mesh.with_levels()
     found.add(ground, material(field.GROUND_COLOR))
     materials = [material(color) for color in plan.palette]
     for number, (place, turn) in enumerate(zip(plan.places, plan.turns, strict=True)):
@@ -42,11 +44,17 @@ def make_scene(plan: field.Field) -> cc.Scene:
 
 
 class _Field:
-    """`memory`: "recycled": results are freed at once, for the next; "fresh": they are kept until the end."""
+    """A field, and how it is captured.
 
-    def __init__(self, memory: str = "recycled", **options: Any) -> None:
+    `memory`: "recycled": results are freed at once, for the next; "fresh": they are kept until the end.
+    `max_lod_error` is that of the captures, in pixels.
+    """
+
+    def __init__(
+        self, memory: str = "recycled", max_lod_error: float = 0.0, **options: Any
+    ) -> None:
         self.plan = field.Field.of(options)
-        self.scene = make_scene(self.plan)
+        self.scene = make_scene(self.plan, max_lod_error > 0)
         self.renderer = cc.Renderer()
         self.kept: list[Any] | None = [] if memory == "fresh" else None
         if self.kept is None:
@@ -58,6 +66,7 @@ class _Field:
             "far": field.FAR,
             "format": self.plan.format,
             "samples": self.plan.samples,
+            "max_lod_error": max_lod_error,
         }
 
     def prepare(self, index: int) -> None:

@@ -74,12 +74,13 @@ make_batch(const std::shared_ptr<Renderer>& renderer, const Scene& scene,
            const ArrayLike& positions, const OrNone<ArrayLike>& rotations, const WholeNumber& size,
            Real near, Real far, const Nodes& exclude, const OutputNames& outputs,
            const FormatOrNone& format, const WholeNumber& samples, const OrNone<ArrayLike>& eye,
-           const DepthFormatName& depth_format, const Choice<depth_order_names>& depth_order) {
+           const DepthFormatName& depth_format, const Choice<depth_order_names>& depth_order,
+           Real max_lod_error) {
     auto made = std::make_shared<CaptureBatch>();
     made->renderer = renderer;
     made->places = to_places(positions, rotations);
     made->options = capture_options(scene, {size, near, far, exclude, outputs, format, samples, eye,
-                                            depth_format, depth_order});
+                                            depth_format, depth_order, max_lod_error});
     made->scene = snapshot_of(scene);
     made->shape = with_notices([&] { return renderer->batch_shape(*made->scene, made->options); });
     return made;
@@ -161,11 +162,11 @@ make_renders(const std::shared_ptr<Renderer>& renderer, const Scene& scene,
              const FormatOrNone& format, const WholeNumber& samples, Real exposure,
              const std::optional<Choice<tonemap_names>>& tonemap,
              const std::optional<Choice<encode_names>>& encode, const EffectsLike& effects,
-             const DepthFormatName& depth_format, Flag screen_reflections) {
+             const DepthFormatName& depth_format, Flag screen_reflections, Real max_lod_error) {
     auto made = std::make_shared<RenderBatch>();
     made->renderer = renderer;
     made->options = frame_options({size, outputs, format, samples, exposure, tonemap, encode,
-                                   depth_format, screen_reflections});
+                                   depth_format, screen_reflections, max_lod_error});
     for (const py::handle camera : py::iter(cameras)) {
         made->cameras.push_back(to_camera(py::reinterpret_borrow<SeenBy>(camera)));
     }
@@ -227,7 +228,8 @@ void bind_batches(pybind11::module_& module) {
         .def(py::init(&make_batch), py::arg("renderer"), py::arg("scene"), py::arg("positions"),
              py::arg("rotations"), py::arg("size"), py::kw_only(), py::arg("near"), py::arg("far"),
              py::arg("exclude"), py::arg("outputs"), py::arg("format"), py::arg("samples"),
-             py::arg("eye"), py::arg("depth_format"), py::arg("depth_order"))
+             py::arg("eye"), py::arg("depth_format"), py::arg("depth_order"),
+             py::arg("max_lod_error"))
         .def("__len__", [](const CaptureBatch& self) { return self.places.size(); })
         .def_property_readonly("most_cubes",
                                [](const CaptureBatch& self) { return self.shape.most_cubes; })
@@ -254,7 +256,8 @@ void bind_batches(pybind11::module_& module) {
         .def(py::init(&make_renders), py::arg("renderer"), py::arg("scene"), py::arg("cameras"),
              py::arg("size"), py::kw_only(), py::arg("outputs"), py::arg("format"),
              py::arg("samples"), py::arg("exposure"), py::arg("tonemap"), py::arg("encode"),
-             py::arg("effects"), py::arg("depth_format"), py::arg("screen_reflections"))
+             py::arg("effects"), py::arg("depth_format"), py::arg("screen_reflections"),
+             py::arg("max_lod_error"))
         .def("__len__", [](const RenderBatch& self) { return self.cameras.size(); })
         .def_property_readonly(
             "revision", [](const RenderBatch& self) { return self.scene->revision; },

@@ -35,6 +35,9 @@ void bind_stats(py::module_& m) {
                       "A large mesh (in software one of 2,000 triangles, on a GPU of 100,000) is "
                       "drawn in part where only a part of it shows in what changed, or in the "
                       "picture. The picture has the same bytes.")
+        .def_readonly("triangles_simplified", &Stats::triangles_simplified,
+                      "int: how many triangles the levels of detail that were drawn have fewer "
+                      "than their meshes (``max_lod_error``); counted once for each view.")
         .def_readonly("probes_updated", &Stats::probes_updated,
                       "int: probes of which at least one face was drawn.")
         .def_readonly("textures_updated", &Stats::textures_updated,
@@ -67,6 +70,7 @@ void bind_stats(py::module_& m) {
                    " draw_calls=" + std::to_string(s.draw_calls) +
                    " triangles=" + std::to_string(s.triangles) +
                    " triangles_skipped=" + std::to_string(s.triangles_skipped) +
+                   " triangles_simplified=" + std::to_string(s.triangles_simplified) +
                    " probes_updated=" + std::to_string(s.probes_updated) +
                    " textures_updated=" + std::to_string(s.textures_updated) +
                    " shadow_views_drawn=" + std::to_string(s.shadow_views_drawn) +

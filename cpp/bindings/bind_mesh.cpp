@@ -11,6 +11,7 @@
 #include "cubecam/core/checks.hpp"
 #include "cubecam/geometry/mesh.hpp"
 #include "cubecam/geometry/primitives.hpp"
+#include "cubecam/geometry/simplify.hpp"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -93,12 +94,58 @@ MorphTargets to_targets(py::handle targets) {
     return found;
 }
 
+using LevelsLike =
+    OneOf<py::typing::Iterable<py::typing::Tuple<ArrayLike, py::typing::Union<py::int_, py::float_>>>>;
+using Levels =
+    py::typing::Tuple<py::typing::Tuple<py::array_t<std::uint32_t>, py::float_>, py::ellipsis>;
+
+std::vector<MeshLevel> to_levels(py::handle levels, std::size_t vertices) {
+    constexpr const char* wanted = "a sequence of pairs (indices, error)";
+    if (py::isinstance<py::str>(levels) || !py::isinstance<py::iterable>(levels)) {
+        refuse(levels, "levels", wanted);
+    }
+    std::vector<MeshLevel> found;
+    for (const py::handle level : py::iter(levels)) {
+        const bool pair = (py::isinstance<py::tuple>(level) || py::isinstance<py::list>(level)) &&
+                          py::len(level) == 2;
+        if (!pair) refuse(level, "levels", wanted);
+        const py::object indices = level[py::int_(0)];
+        const py::object error = level[py::int_(1)];
+        const auto number = real_number(error);
+        if (!number) refuse(error, "levels", "an error as float in each pair");
+        found.push_back(
+            {to_vectors<glm::uvec3>(index_array(indices, "levels", "(F, 3)", vertices)), *number});
+    }
+    return found;
+}
+
+Levels levels_of(const Mesh& mesh) {
+    py::list list;
+    if (const auto levels = mesh.data()->levels()) {
+        for (const DrawnLevel& level : *levels) {
+            list.append(py::make_tuple(rows<std::uint32_t>(level.triangles), level.error));
+        }
+    }
+    return py::tuple(list);
+}
+
+/// The mesh with simplified levels; what joints and morph targets move has none.
+std::shared_ptr<Mesh> with_levels(const Mesh& mesh, double ratio) {
+    const Unlocked unlocked;
+    const auto data = mesh.data();
+    auto made = std::make_shared<Mesh>(MeshData(*data));
+    MeshUpdate update;
+    update.levels = simplified_levels(*data, ratio);
+    made->update(std::move(update));
+    return made;
+}
+
 std::shared_ptr<Mesh> make_mesh(const ArrayLike& positions, const ArrayLike& indices,
                                 const OrNone<ArrayLike>& normals, const OrNone<ArrayLike>& uvs,
                                 const OrNone<ArrayLike>& colors, const OrNone<ArrayLike>& uvs1,
                                 const OrNone<ArrayLike>& tangents, const OrNone<ArrayLike>& joints,
                                 const OrNone<ArrayLike>& joint_weights,
-                                const TargetsLike& morph_targets) {
+                                const TargetsLike& morph_targets, const LevelsLike& levels) {
     MeshData::Arrays arrays;
     arrays.positions = to_vectors<glm::vec3>(float_array(positions, "positions", "(V, 3)"));
     arrays.triangles =
@@ -114,6 +161,7 @@ std::shared_ptr<Mesh> make_mesh(const ArrayLike& positions, const ArrayLike& ind
     }
     arrays.influences = to_influences(joints, joint_weights, arrays.positions.size());
     arrays.targets = to_targets(morph_targets);
+    arrays.levels = to_levels(levels, arrays.positions.size());
     const Unlocked unlocked;
     return std::make_shared<Mesh>(MeshData(std::move(arrays)));
 }
@@ -187,8 +235,11 @@ void update_mesh(Mesh& self, const OrNone<ArrayLike>& positions, const OrNone<Ar
 
 std::string represent(const Mesh& mesh) {
     const auto data = mesh.data();
+    const std::size_t levels = data->levels() ? data->levels()->size() : 0;
     return "Mesh(" + std::to_string(data->positions()->size()) + " vertices, " +
-           std::to_string(data->triangles()->size()) + " triangles)";
+           std::to_string(data->triangles()->size()) + " triangles" +
+           (levels == 0 ? "" : ", " + std::to_string(levels) + (levels == 1 ? " level" : " levels")) +
+           ")";
 }
 
 /// A function that builds a mesh without the GIL, since a mesh of many triangles takes a while.
@@ -327,6 +378,14 @@ void bind_vertices(Class<Mesh>& mesh) {
             apply(self, std::move(update));
         },
         docs::morph_targets);
+    mesh.def_property(
+        "levels", &levels_of,
+        [](Mesh& self, const LevelsLike& value) {
+            MeshUpdate update;
+            update.levels = to_levels(value, vertices_of(self));
+            apply(self, std::move(update));
+        },
+        docs::levels);
 }
 
 }  // namespace
@@ -343,7 +402,8 @@ void bind_mesh(pybind11::module_& module) {
              py::arg("normals") = py::none(), py::arg("uvs") = py::none(),
              py::arg("colors") = py::none(), py::arg("uvs1") = py::none(),
              py::arg("tangents") = py::none(), py::arg("joints") = py::none(),
-             py::arg("joint_weights") = py::none(), py::arg("morph_targets") = py::tuple());
+             py::arg("joint_weights") = py::none(), py::arg("morph_targets") = py::tuple(),
+             py::arg("levels") = py::tuple());
     bind_primitives(mesh);
     mesh.def_static(
         "from_trimesh",
@@ -381,6 +441,9 @@ void bind_mesh(pybind11::module_& module) {
                 MeshData(*self.with_tangents(data, set, false)).with_targets_of(*data));
         },
         py::kw_only(), py::arg("uv_set") = 0, docs::with_tangents);
+    mesh.def(
+        "with_levels", [](const Mesh& self, Real ratio) { return with_levels(self, ratio); },
+        py::kw_only(), py::arg("ratio") = 0.5, docs::with_levels);
     mesh.def("update", &update_mesh, py::kw_only(), py::arg("positions") = py::none(),
              py::arg("normals") = py::none(), py::arg("uvs") = py::none(),
              py::arg("colors") = py::none(), py::arg("uvs1") = py::none(),
@@ -396,7 +459,7 @@ void bind_mesh(pybind11::module_& module) {
     mesh.def("__reduce__", [](const py::object& self) {
         py::dict arguments =
             attributes_of(self, "positions", "indices", "normals", "uvs", "colors", "uvs1",
-                          "tangents", "joints", "joint_weights", "morph_targets");
+                          "tangents", "joints", "joint_weights", "morph_targets", "levels");
         // Smooth normals are computed again, so that those of the copy follow its positions, too.
         if (self.cast<const Mesh&>().data()->smooth()) arguments["normals"] = py::none();
         return reduced(self, arguments);

@@ -78,9 +78,9 @@ FrameRequest frame_request(const Scene& scene, const SeenBy& camera, const bindi
                            const std::optional<bindings::Choice<encode_names>>& encode,
                            const bindings::EffectsLike& effects,
                            const bindings::DepthFormatName& depth_format,
-                           bindings::Flag screen_reflections) {
+                           bindings::Flag screen_reflections, bindings::Real max_lod_error) {
     auto options = frame_options({size, outputs, format, samples, exposure, tonemap, encode,
-                                  depth_format, screen_reflections});
+                                  depth_format, screen_reflections, max_lod_error});
     auto seen = to_camera(camera);
     return {snapshot_of(scene, bindings::to_effects(effects)), std::move(seen), std::move(options)};
 }
@@ -93,9 +93,11 @@ CaptureRequest capture_request(const Scene& scene, const bindings::ArrayLike& po
                                const bindings::OrNone<bindings::ArrayLike>& eye,
                                const bindings::DepthFormatName& depth_format,
                                const bindings::Choice<depth_order_names>& depth_order,
-                               const bindings::OrNone<bindings::ArrayLike>& rotation) {
-    CaptureOptions options = capture_options(scene, {size, near, far, exclude, outputs, format,
-                                                     samples, eye, depth_format, depth_order});
+                               const bindings::OrNone<bindings::ArrayLike>& rotation,
+                               bindings::Real max_lod_error) {
+    CaptureOptions options =
+        capture_options(scene, {size, near, far, exclude, outputs, format, samples, eye,
+                                depth_format, depth_order, max_lod_error});
     options.position = to_vec3(position, "position");
     if (!rotation.is_none()) {
         options.rotation = unit_rotation(bindings::to_rotation(rotation, "rotation"));
@@ -164,7 +166,7 @@ void bind_renderer(pybind11::module_& m) {
                      py::arg("tonemap") = py::none(), py::arg("encode") = py::none(),
                      py::arg("effects") = py::tuple(),
                      py::arg("depth_format") = "depth_component32f",
-                     py::arg("screen_reflections") = false, doc);
+                     py::arg("screen_reflections") = false, py::arg("max_lod_error") = 0.0, doc);
     };
     const auto def_capture = [&](const char* name, auto method, const char* doc) {
         renderer.def(name, method, py::arg("scene"),
@@ -173,7 +175,8 @@ void bind_renderer(pybind11::module_& m) {
                      py::arg("exclude") = py::tuple(), py::arg("outputs") = py::tuple(),
                      py::arg("format") = "rgba32f", py::arg("samples") = 1,
                      py::arg("eye") = py::none(), py::arg("depth_format") = "depth_component32f",
-                     py::arg("depth_order") = "nearest", py::arg("rotation") = py::none(), doc);
+                     py::arg("depth_order") = "nearest", py::arg("rotation") = py::none(),
+                     py::arg("max_lod_error") = 0.0, doc);
     };
     def_render("render", &Render::now, docs::render);
     def_render("render_async", &Render::later, docs::render_async);

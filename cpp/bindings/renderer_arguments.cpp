@@ -78,6 +78,7 @@ FrameOptions frame_options(const FrameArguments& given) {
     if (given.encode) options.encode = parse_encode(*given.encode);
     options.depth_format = to_depth_format(given.depth_format);
     options.screen_reflections = given.screen_reflections;
+    options.max_lod_error = given.max_lod_error;
     return options;
 }
 
@@ -96,6 +97,7 @@ CaptureOptions capture_options(const Scene& scene, const CaptureArguments& given
     options.samples = to_int(given.samples, "samples");
     options.depth_format = to_depth_format(given.depth_format);
     options.depth_order = parse_depth_order(given.depth_order);
+    options.max_lod_error = given.max_lod_error;
     if (!given.eye.is_none()) options.eye = to_vec3(given.eye, "eye");
     return options;
 }

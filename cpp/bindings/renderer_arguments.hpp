@@ -41,6 +41,7 @@ struct FrameArguments {
     const std::optional<Choice<encode_names>>& encode;
     const DepthFormatName& depth_format;
     bool screen_reflections;
+    double max_lod_error;
 };
 
 FrameOptions frame_options(const FrameArguments& given);
@@ -57,6 +58,7 @@ struct CaptureArguments {
     const OrNone<ArrayLike>& eye;
     const DepthFormatName& depth_format;
     const Choice<depth_order_names>& depth_order;
+    double max_lod_error;
 };
 
 /// The options without position and rotation.

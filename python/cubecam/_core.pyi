@@ -4353,6 +4353,8 @@ class Mesh:
     The vertices can be replaced: `update` replaces several arrays at once. The number of vertices and
     the triangles never change.
 
+    A mesh may have levels of detail, of which calls with ``max_lod_error`` draw one: see `with_levels`.
+
     Parameters
     ----------
     positions : array_like (V, 3)
@@ -4383,13 +4385,15 @@ class Mesh:
         with joint 0.
     morph_targets : sequence of MorphTarget
         Changes of the shape, which `Node.weights` mixes.
+    levels : sequence of (array_like (F, 3) of int, float)
+        Levels of detail from fine to coarse: triangles between the same vertices, and the error, see `levels`.
 
     Raises
     ------
     TypeError
         For arrays of bool, complex, object or str, and for indices that are not integers.
     ValueError
-        For other shapes, unequal lengths, NaN or infinity, or no triangle.
+        For other shapes, unequal lengths, NaN or infinity, no triangle, or errors of levels that are negative or decrease.
     IndexError
         For an index outside 0 to V - 1, or a joint outside 0 to 65535.
 
@@ -4745,6 +4749,7 @@ class Mesh:
         joints: np.typing.ArrayLike | None = None,
         joint_weights: np.typing.ArrayLike | None = None,
         morph_targets: collections.abc.Iterable[MorphTarget] = (),
+        levels: collections.abc.Iterable[tuple[np.typing.ArrayLike, int | float]] = (),
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Mesh) -> str: ...
@@ -4878,6 +4883,58 @@ class Mesh:
         [1.0, 0.2, 1.0]
         """
 
+    def with_levels(
+        self: Mesh, *, ratio: typing.SupportsFloat | typing.SupportsIndex = 0.5
+    ) -> Mesh:
+        """
+        Copy the mesh with levels of detail, which calls with ``max_lod_error`` draw where they are small.
+
+        Edges are contracted to one of their ends, those first that change the surface and its attributes least, until nothing
+        more can be left out without a tear or a fold. Vertices keep their normals, uvs and colours. Borders keep to borders;
+        seams, where vertices at one place differ in their attributes, stay closed.
+
+        Parameters
+        ----------
+        ratio : float
+            How many triangles a level has, relative to the one before; 0.1 to 0.9.
+
+        Returns
+        -------
+        Mesh
+            A new mesh with `levels`; none if nothing can be left out.
+
+        Raises
+        ------
+        ValueError
+            For a ratio that is not from 0.1 to 0.9.
+
+        Notes
+        -----
+        The order is that of the quadric errors of M. Garland and P. Heckbert, "Surface Simplification Using Quadric Error
+        Metrics", SIGGRAPH 1997, with attributes after H. Hoppe, "New Quadric Metric for Simplifying Meshes with Appearance
+        Attributes", IEEE Visualization 1999. The error of a level is the greater of two. One is an upper bound for the
+        Hausdorff distance of the surfaces, at most 5 % above it, which is found by cutting triangles (after M. Tang, M. Lee and
+        Y. Kim, "Interactive Hausdorff Distance Computation for General Polygonal Models", SIGGRAPH 2009). The other is the
+        greatest root of a mean square by which normals, uvs or colours differ round a vertex, where a difference of 1 counts
+        as the length on the surface over which they change by 1 on average, at most a quarter of the mesh's extent: that one
+        is an estimate.
+
+        Nodes draw the exact mesh where a level would not fit: with joints or morph targets; with materials that move vertices
+        or count triangles, that set ``flat_shading`` or need tangents that the mesh lacks, and glass that follows light through
+        its body; and where a node both casts and receives shadows. Shadow maps, probes and render textures show exact meshes.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> ball = cc.Mesh.sphere(1).with_levels()
+        >>> scene = cc.Scene()
+        >>> near, far = (scene.add(ball, cc.BasicMaterial(), position=(0, 0, z)) for z in (-3, -50))
+        >>> with cc.Renderer() as renderer:
+        ...     cube = renderer.capture(scene, size=64, max_lod_error=0.5)
+        ...     print(renderer.stats.triangles_simplified > 0)
+        True
+        """
+
     def with_tangents(self: Mesh, *, uv_set: typing.SupportsIndex = 0) -> Mesh:
         """
         Copy the mesh with the tangents of MikkTSpace, by which most programs bake normal maps.
@@ -4952,6 +5009,19 @@ class Mesh:
         They count the joints of `Node.skin` from 0. `update` replaces them.
         """
 
+    @property
+    def levels(self) -> tuple[tuple[np.typing.NDArray[np.uint32], float], ...]:
+        """
+        ndarray (6, M, M, C) in `dtype`, read-only, of each level, in a tuple: the filtered faces.
+
+        Level 0 is `faces`; level k holds the faces filtered for ``roughness[k]``, in the convention "gl". A cubemap that
+        `prefilter` did not make has one level. The levels of `mipmaps` are others, and `sample` looks those up.
+        """
+
+    @levels.setter
+    def levels(
+        self, value: collections.abc.Iterable[tuple[np.typing.ArrayLike, int | float]]
+    ) -> None: ...
     @property
     def morph_targets(self) -> tuple[MorphTarget, ...]:
         """
@@ -8931,6 +9001,12 @@ class Stats:
         """
 
     @property
+    def triangles_simplified(self) -> int:
+        """
+        int: how many triangles the levels of detail that were drawn have fewer than their meshes (``max_lod_error``); counted once for each view.
+        """
+
+    @property
     def triangles_skipped(self) -> int:
         """
         int: triangles of drawn meshes that were not sent, since they lie outside of the part of the picture that was drawn; counted once for each view.
@@ -9423,6 +9499,7 @@ class Renderer:
         depth_format: DepthFormat | None = "depth_component32f",
         depth_order: DepthOrder = "nearest",
         rotation: np.typing.ArrayLike | None = None,
+        max_lod_error: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> CubeMap:
         """
         Draw the surroundings of a point into a cubemap.
@@ -9458,6 +9535,9 @@ class Renderer:
             The quaternion (w, x, y, z) that turns the cube's axes against the world's, as `axis_angle` gives: what the scene
             shows in the direction R d, the cube shows in d. Normals and positions stay world vectors. None: the axes are the
             world's, as lookups of a scene's environment expect.
+        max_lod_error : float
+            Pixels by which levels of detail may be off, see :meth:`render`; 0: exact meshes. The six faces show the same level
+            of a node.
 
         Returns
         -------
@@ -9497,6 +9577,7 @@ class Renderer:
         depth_format: DepthFormat | None = "depth_component32f",
         depth_order: DepthOrder = "nearest",
         rotation: np.typing.ArrayLike | None = None,
+        max_lod_error: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> cubecam._futures.PictureFuture[CubeMap]:
         """
         Have the surroundings of a point drawn by a thread of the renderer, and return at once.
@@ -9508,7 +9589,7 @@ class Renderer:
         ----------
         scene, position, size
             See :meth:`capture`.
-        near, far, exclude, outputs, format, samples, eye, depth_format, depth_order, rotation
+        near, far, exclude, outputs, format, samples, eye, depth_format, depth_order, rotation, max_lod_error
             See :meth:`capture`.
 
         Returns
@@ -9548,6 +9629,7 @@ class Renderer:
         eye: np.typing.ArrayLike | None = None,
         depth_format: DepthFormat = "depth_component32f",
         depth_order: DepthOrder = "nearest",
+        max_lod_error: float = 0.0,
         progress: bool = True,
     ) -> cubecam.CubeMapBatch:
         """
@@ -9574,7 +9656,7 @@ class Renderer:
             Clip distances, world units, 0 < near < far.
         exclude : iterable of Node
             Nodes that are left out with all nodes below them.
-        format, samples, eye, depth_format, depth_order
+        format, samples, eye, depth_format, depth_order, max_lod_error
             As in `Renderer.capture`, for all captures.
         progress : bool
             Whether a bar shows on the error stream how many captures are done, if it is a terminal and the work takes more
@@ -9627,6 +9709,7 @@ class Renderer:
         eye: np.typing.ArrayLike | None = None,
         depth_format: DepthFormat = "depth_component32f",
         depth_order: DepthOrder = "nearest",
+        max_lod_error: float = 0.0,
         progress: bool = True,
     ) -> collections.abc.Iterator[CubeMap]:
         """
@@ -9637,7 +9720,9 @@ class Renderer:
 
         Parameters
         ----------
-        scene, positions, size, outputs, rotations, near, far, exclude, format, samples, eye, depth_format, depth_order
+        scene, positions, size, outputs, rotations, near, far, exclude, format, samples, eye
+            As in `capture_many`.
+        depth_format, depth_order, max_lod_error
             As in `capture_many`.
         progress : bool
             As in `capture_many`.
@@ -9734,6 +9819,7 @@ class Renderer:
         effects: collections.abc.Iterable[ImageEffect] = (),
         depth_format: DepthFormat | None = "depth_component32f",
         screen_reflections: bool = False,
+        max_lod_error: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> Frame:
         """
         Draw a picture of a scene. The probes that its mirrors need are brought up to date first.
@@ -9779,6 +9865,12 @@ class Renderer:
             their mirrors, and where a frame shows nothing, since it is hidden or out of view, nothing changes. Blended surfaces
             are not found; surfaces with a `PlanarMirror`, captures, probes, render textures and what a pane of transmissive
             material shows do without. It needs a colour and a depth buffer, and draws the nodes twice.
+        max_lod_error : float
+            Pixels. Of a mesh with levels of detail (`Mesh.with_levels`) the coarsest is drawn of which every point that the
+            picture shows lies at most so many pixels from a point of the mesh, and the other way round. The error of a level
+            counts with the node's largest scale, at the nearest point of the node's bounds in the world, for the widest angle
+            under which the picture may show it. 0: exact meshes. `Mesh.with_levels` says which nodes are always exact, and so
+            are shadow maps, probes and render textures. ``stats.triangles_simplified`` tells what it saves.
 
         Returns
         -------
@@ -9790,7 +9882,7 @@ class Renderer:
         ------
         ValueError
             For an unknown name, a size or sample count beyond the driver's limits, formats that the driver cannot draw into,
-            outputs that ``depth_format`` does not allow, an exposure that is not from -64 to 64, tone mapping or effects with
+            outputs that ``depth_format`` does not allow, a ``max_lod_error`` that is negative or not finite, an exposure that is not from -64 to 64, tone mapping or effects with
             ``format=None``, ``screen_reflections`` without a colour or a depth buffer, or a camera without a valid view.
         ContextError
             After :meth:`close`, or in a forked process.
@@ -9819,6 +9911,7 @@ class Renderer:
         effects: collections.abc.Iterable[ImageEffect] = (),
         depth_format: DepthFormat | None = "depth_component32f",
         screen_reflections: bool = False,
+        max_lod_error: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> cubecam._futures.PictureFuture[Frame]:
         """
         Have a picture of a scene drawn by a thread of the renderer, and return at once.
@@ -9835,7 +9928,7 @@ class Renderer:
         ----------
         scene, camera, size
             See :meth:`render`.
-        outputs, format, samples, exposure, tonemap, encode, effects, depth_format, screen_reflections
+        outputs, format, samples, exposure, tonemap, encode, effects, depth_format, screen_reflections, max_lod_error
             See :meth:`render`.
 
         Returns
@@ -9881,6 +9974,7 @@ class Renderer:
         effects: collections.abc.Iterable[ImageEffect] = tuple(),
         depth_format: DepthFormat | None = "depth_component32f",
         screen_reflections: bool = False,
+        max_lod_error: float = 0.0,
         progress: bool = True,
     ) -> cubecam.FrameBatch:
         """
@@ -9896,7 +9990,7 @@ class Renderer:
             A frame is rendered for each.
         size : (int, int)
             (width, height) of each frame, pixels.
-        outputs, format, samples, exposure, tonemap, encode, effects, depth_format, screen_reflections
+        outputs, format, samples, exposure, tonemap, encode, effects, depth_format, screen_reflections, max_lod_error
             As in `Renderer.render`, for all frames.
         progress : bool
             Whether a bar shows on the error stream how many frames are done, if it is a terminal and the work takes more
@@ -10025,6 +10119,7 @@ class _CaptureBatch:
         eye: np.typing.ArrayLike | None,
         depth_format: DepthFormat | None,
         depth_order: DepthOrder,
+        max_lod_error: typing.SupportsFloat | typing.SupportsIndex,
     ) -> None: ...
     def __len__(self: _CaptureBatch) -> int: ...
     def __reduce__(self) -> tuple[object, ...]: ...
@@ -10084,6 +10179,7 @@ class _RenderBatch:
         effects: collections.abc.Iterable[ImageEffect],
         depth_format: DepthFormat | None,
         screen_reflections: bool,
+        max_lod_error: typing.SupportsFloat | typing.SupportsIndex,
     ) -> None: ...
     def __len__(self: _RenderBatch) -> int: ...
     def __reduce__(self) -> tuple[object, ...]: ...

@@ -329,6 +329,9 @@ VALUES = {
     "Scene.variant": variant,
     "Scene.variants": choice((), ("day", "night"), ("night", "dusk")),
     "Mesh.colors": lambda world, rng, thing: one(rng, None, rng.random(thing.positions.shape)),
+    "Mesh.levels": lambda world, rng, thing: one(
+        rng, (), [(thing.indices[: 1 + len(thing.indices) // 2], 0.01), (thing.indices[:1], 0.2)]
+    ),
     "Mesh.morph_targets": targets_of,
     "Mesh.normals": lambda world, rng, thing: one(
         rng, None, rng.normal(size=thing.positions.shape)

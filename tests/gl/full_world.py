@@ -304,7 +304,7 @@ def pictures(renderer, world):
         outputs = (*outputs, "heat")  # that the sources of this world declare
     add_frame("frame", camera, format="rgba32f", outputs=outputs, **stencils)
     add_frame("effects", flat, effects=world.effects, samples=4)
-    add_frame("matrices", matrices, tonemap="aces")
+    add_frame("matrices", matrices, tonemap="aces", max_lod_error=5)
     add_frame("stereo", world.stereo, format="rgba32f")
     shaded = {"outputs": outputs, **stencils}
     cube = refused(lambda: renderer.capture(scene, (0.1, 0.2, 0.3), 10, **shaded))
@@ -312,7 +312,7 @@ def pictures(renderer, world):
         found["capture"] = cube
     else:
         found["capture"], found["capture id"] = cube.faces, cube.id
-    options = {"depth_order": "farthest", **shaded}
+    options = {"depth_order": "farthest", "max_lod_error": 2, **shaded}
     behind = refused(lambda: renderer.capture(scene, (0.1, 0.2, 0.3), 10, **options))
     if isinstance(behind, str):
         found["farthest"] = behind

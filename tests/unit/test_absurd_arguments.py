@@ -145,6 +145,7 @@ NEEDED: dict[str, Any] = {
     "Mesh": lambda: dict(TRIANGLE),
     "Mesh.from_trimesh": dict,
     "Mesh.resized": lambda: {"size": 1},
+    "Mesh.with_levels": dict,
     "Blend": lambda: {"src": "one", "dst": "one"},
     "Texture": lambda: {"source": PICTURE},
     "ShaderMaterial": lambda: {"fragment": SHADE},

@@ -209,7 +209,9 @@ def frame():
 MAKE = {
     "CubeMap": lambda: cc.CubeMap(np.arange(6, dtype=np.uint8).reshape(6, 1, 1, 1), mipmaps=True),
     "Image": lambda: cc.Image(np.zeros((1, 2, 3), np.uint8), mipmaps=True, wrap="clamp"),
-    "Mesh": lambda: cc.Mesh(np.eye(3), [[0, 1, 2]], uvs=np.ones((3, 2))),
+    "Mesh": lambda: cc.Mesh(
+        np.eye(3), [[0, 1, 2]], uvs=np.ones((3, 2)), levels=[([[1, 2, 0]], 0.5)]
+    ),
     "MorphTarget": lambda: cc.MorphTarget(
         positions=np.eye(3), colors=np.ones((3, 3)), uvs1=np.ones((3, 2)), name="smile"
     ),

@@ -9,6 +9,8 @@ inline constexpr const char* mesh =
 The vertices can be replaced: `update` replaces several arrays at once. The number of vertices and
 the triangles never change.
 
+A mesh may have levels of detail, of which calls with ``max_lod_error`` draw one: see `with_levels`.
+
 Parameters
 ----------
 positions : array_like (V, 3)
@@ -39,13 +41,15 @@ joint_weights : array_like (V, 4 k), optional
     with joint 0.
 morph_targets : sequence of MorphTarget
     Changes of the shape, which `Node.weights` mixes.
+levels : sequence of (array_like (F, 3) of int, float)
+    Levels of detail from fine to coarse: triangles between the same vertices, and the error, see `levels`.
 
 Raises
 ------
 TypeError
     For arrays of bool, complex, object or str, and for indices that are not integers.
 ValueError
-    For other shapes, unequal lengths, NaN or infinity, or no triangle.
+    For other shapes, unequal lengths, NaN or infinity, no triangle, or errors of levels that are negative or decrease.
 IndexError
     For an index outside 0 to V - 1, or a joint outside 0 to 65535.
 
@@ -107,6 +111,74 @@ inline constexpr const char* morph_targets =
     R"doc(tuple of MorphTarget: changes of the shape, which `Node.weights` mixes.
 
 They can be set. Where a node has fewer weights than there are targets, the others are 0.)doc";
+
+inline constexpr const char* levels =
+    R"doc(tuple of (ndarray (F, 3) uint32, float): simpler forms of the mesh, from fine to coarse.
+
+Each is a pair of triangles between vertices of the mesh and an error in the mesh's units: no point of either surface
+lies farther from the other than that. A call with ``max_lod_error`` draws the coarsest level whose error, seen from
+the call's place, is at most so many pixels; three.js chooses by a distance, ``LOD.addLevel(object, distance)``.
+`with_levels` makes levels; others can be set, and an empty sequence takes them away. New vertices end them: positions,
+normals, uvs, colours or tangents that are set or updated. `resized` scales the errors.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> ball = cc.Mesh.sphere(1).with_levels()
+>>> len(ball.indices), [len(indices) for indices, _ in ball.levels[:3]]
+(3968, [1984, 992, 496])
+>>> cc.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.1]], [[0, 1, 2], [0, 2, 3]], levels=[([[0, 1, 2]], 0.7)])
+Mesh(4 vertices, 2 triangles, 1 level)
+)doc";
+
+inline constexpr const char* with_levels =
+    R"doc(Copy the mesh with levels of detail, which calls with ``max_lod_error`` draw where they are small.
+
+Edges are contracted to one of their ends, those first that change the surface and its attributes least, until nothing
+more can be left out without a tear or a fold. Vertices keep their normals, uvs and colours. Borders keep to borders;
+seams, where vertices at one place differ in their attributes, stay closed.
+
+Parameters
+----------
+ratio : float
+    How many triangles a level has, relative to the one before; 0.1 to 0.9.
+
+Returns
+-------
+Mesh
+    A new mesh with `levels`; none if nothing can be left out.
+
+Raises
+------
+ValueError
+    For a ratio that is not from 0.1 to 0.9.
+
+Notes
+-----
+The order is that of the quadric errors of M. Garland and P. Heckbert, "Surface Simplification Using Quadric Error
+Metrics", SIGGRAPH 1997, with attributes after H. Hoppe, "New Quadric Metric for Simplifying Meshes with Appearance
+Attributes", IEEE Visualization 1999. The error of a level is the greater of two. One is an upper bound for the
+Hausdorff distance of the surfaces, above it by at most 5 % or 1e-4 of the mesh's extent, which is found by cutting
+triangles (after M. Tang, M. Lee and Y. Kim, "Interactive Hausdorff Distance Computation for General Polygonal Models",
+SIGGRAPH 2009). The other is the greatest root of a mean square by which normals, uvs or colours differ round a vertex,
+where a difference of 1 counts as the length on the surface over which they change by 1 on average, at most a quarter of
+the mesh's extent: that one is an estimate.
+
+Nodes draw the exact mesh where a level would not fit: with joints or morph targets; with materials that move vertices
+or count triangles, that set ``flat_shading`` or need tangents that the mesh lacks, and glass that follows light through
+its body; and where a node both casts and receives shadows. Shadow maps, probes and render textures show exact meshes.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> ball = cc.Mesh.sphere(1).with_levels()
+>>> scene = cc.Scene()
+>>> near, far = (scene.add(ball, cc.BasicMaterial(), position=(0, 0, z)) for z in (-3, -50))
+>>> with cc.Renderer() as renderer:
+...     cube = renderer.capture(scene, size=64, max_lod_error=0.5)
+...     print(renderer.stats.triangles_simplified > 0)
+True
+)doc";
 
 inline constexpr const char* with_tangents =
     R"doc(Copy the mesh with the tangents of MikkTSpace, by which most programs bake normal maps.

@@ -105,6 +105,12 @@ screen_reflections : bool
     their mirrors, and where a frame shows nothing, since it is hidden or out of view, nothing changes. Blended surfaces
     are not found; surfaces with a `PlanarMirror`, captures, probes, render textures and what a pane of transmissive
     material shows do without. It needs a colour and a depth buffer, and draws the nodes twice.
+max_lod_error : float
+    Pixels. Of a mesh with levels of detail (`Mesh.with_levels`) the coarsest is drawn of which every point that the
+    picture shows lies at most so many pixels from a point of the mesh, and the other way round. The error of a level
+    counts with the node's largest scale, at the nearest point of the node's bounds in the world, for the widest angle
+    under which the picture may show it. 0: exact meshes. `Mesh.with_levels` says which nodes are always exact, and so
+    are shadow maps, probes and render textures. ``stats.triangles_simplified`` tells what it saves.
 
 Returns
 -------
@@ -116,7 +122,7 @@ Raises
 ------
 ValueError
     For an unknown name, a size or sample count beyond the driver's limits, formats that the driver cannot draw into,
-    outputs that ``depth_format`` does not allow, an exposure that is not from -64 to 64, tone mapping or effects with
+    outputs that ``depth_format`` does not allow, a ``max_lod_error`` that is negative or not finite, an exposure that is not from -64 to 64, tone mapping or effects with
     ``format=None``, ``screen_reflections`` without a colour or a depth buffer, or a camera without a valid view.
 ContextError
     After :meth:`close`, or in a forked process.
@@ -164,6 +170,9 @@ rotation : array_like (4,) or None
     The quaternion (w, x, y, z) that turns the cube's axes against the world's, as `axis_angle` gives: what the scene
     shows in the direction R d, the cube shows in d. Normals and positions stay world vectors. None: the axes are the
     world's, as lookups of a scene's environment expect.
+max_lod_error : float
+    Pixels by which levels of detail may be off, see :meth:`render`; 0: exact meshes. The six faces show the same level
+    of a node.
 
 Returns
 -------
@@ -202,7 +211,7 @@ Parameters
 ----------
 scene, camera, size
     See :meth:`render`.
-outputs, format, samples, exposure, tonemap, encode, effects, depth_format, screen_reflections
+outputs, format, samples, exposure, tonemap, encode, effects, depth_format, screen_reflections, max_lod_error
     See :meth:`render`.
 
 Returns
@@ -243,7 +252,7 @@ Parameters
 ----------
 scene, position, size
     See :meth:`capture`.
-near, far, exclude, outputs, format, samples, eye, depth_format, depth_order, rotation
+near, far, exclude, outputs, format, samples, eye, depth_format, depth_order, rotation, max_lod_error
     See :meth:`capture`.
 
 Returns

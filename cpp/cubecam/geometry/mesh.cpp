@@ -18,6 +18,7 @@ MeshUpdate parts_of(const MeshUpdate& update) {
     if (update.tangents) parts.tangents.emplace();
     if (update.influences) parts.influences.emplace();
     if (update.targets) parts.targets.emplace();
+    if (update.levels) parts.levels.emplace();
     return parts;
 }
 
@@ -34,6 +35,11 @@ void fill(MeshUpdate& parts, const MeshData& updated) {
     copy(parts.tangents, updated.tangents());
     if (parts.influences) *parts.influences = updated.influences();
     copy(parts.targets, updated.targets());
+    if (parts.levels && updated.levels()) {
+        for (const DrawnLevel& level : *updated.levels()) {
+            parts.levels->push_back({*level.triangles, level.error});
+        }
+    }
 }
 
 }  // namespace

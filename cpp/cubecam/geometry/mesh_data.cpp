@@ -28,8 +28,9 @@ void check_alpha(const std::vector<glm::vec4>& colors) {
     }
 }
 
-void check_triangles(const std::vector<glm::uvec3>& triangles, std::size_t vertices) {
-    expect(!triangles.empty(), "at least one triangle", "none");
+void check_triangles(const std::vector<glm::uvec3>& triangles, std::size_t vertices,
+                     const std::string& of = "") {
+    expect(!triangles.empty(), "at least one triangle" + of, "none");
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         poll_interrupts(i);
         const glm::uvec3& t = triangles[i];
@@ -37,7 +38,7 @@ void check_triangles(const std::vector<glm::uvec3>& triangles, std::size_t verti
         if (largest < vertices) continue;
         throw std::out_of_range("expected indices below the number of vertices, " +
                                 std::to_string(vertices) + ", got " + std::to_string(largest) +
-                                " in triangle " + std::to_string(i));
+                                " in triangle " + std::to_string(i) + of);
     }
 }
 
@@ -173,6 +174,7 @@ MeshData::MeshData(Arrays arrays)
     set_tangents(std::move(arrays.tangents));
     set_influences(std::move(arrays.influences));
     set_targets(std::move(arrays.targets));
+    set_levels(arrays.levels);
 }
 
 void MeshData::set_positions(std::vector<glm::vec3> positions) {
@@ -235,6 +237,71 @@ void MeshData::set_targets(MorphTargets targets) {
     targets_ = targets.empty() ? nullptr : std::make_shared<const MorphTargets>(std::move(targets));
 }
 
+void MeshData::set_levels(const std::vector<MeshLevel>& levels) {
+    std::vector<DrawnLevel> made;
+    double last = 0.0;
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        const std::string of = " of level " + std::to_string(i);
+        check_triangles(levels[i].triangles, positions()->size(), of);
+        expect_not_negative(levels[i].error, "an error" + of + " that is");
+        expect(levels[i].error >= last, "errors of levels that do not decrease, from fine to coarse",
+               describe(levels[i].error) + " after " + describe(last));
+        last = levels[i].error;
+        made.push_back(drawn_level(
+            std::make_shared<const std::vector<glm::uvec3>>(levels[i].triangles), last));
+    }
+    levels_ = made.empty() ? nullptr
+                           : std::make_shared<const std::vector<DrawnLevel>>(std::move(made));
+}
+
+void MeshData::make_levels_again(double factor) {
+    if (!levels_) return;
+    std::vector<DrawnLevel> made;
+    for (const DrawnLevel& level : *levels_) {
+        made.push_back(drawn_level(level.triangles, factor * level.error));
+    }
+    levels_ = std::make_shared<const std::vector<DrawnLevel>>(std::move(made));
+}
+
+/// The vertices of a level keep their order.
+DrawnLevel MeshData::drawn_level(Array<glm::uvec3> level_triangles, double error) const {
+    std::vector<std::uint32_t> place(positions()->size(), 0);
+    for (const glm::uvec3& triangle : *level_triangles) {
+        for (int i = 0; i < 3; ++i) place[triangle[i]] = 1;
+    }
+    std::vector<std::uint32_t> used;
+    for (std::size_t v = 0; v < place.size(); ++v) {
+        if (place[v] == 0) continue;
+        place[v] = static_cast<std::uint32_t>(used.size());
+        used.push_back(static_cast<std::uint32_t>(v));
+    }
+    std::vector<glm::uvec3> triangles;
+    triangles.reserve(level_triangles->size());
+    for (const glm::uvec3& triangle : *level_triangles) {
+        triangles.emplace_back(place[triangle.x], place[triangle.y], place[triangle.z]);
+    }
+    MeshData made = *this;
+    made.identity_ = std::make_shared<const MeshIdentity>();
+    made.revision_ = next_revision();
+    made.triangles_ = std::make_shared<const std::vector<glm::uvec3>>(std::move(triangles));
+    const auto gather = [&](auto& stream) {
+        if (stream.values) stream = stream_of(gathered(*stream.values, used), made.revision_);
+    };
+    gather(made.positions_);
+    gather(made.normals_);
+    gather(made.uvs_);
+    gather(made.colors_);
+    gather(made.uvs1_);
+    gather(made.tangents_);
+    made.sources_ = nullptr;
+    made.influences_ = nullptr;
+    made.influences_of_ = nullptr;
+    made.targets_ = nullptr;
+    made.levels_ = nullptr;
+    made.smooth_ = false;
+    return {std::move(level_triangles), error, std::make_shared<const MeshData>(std::move(made))};
+}
+
 MeshData MeshData::updated(MeshUpdate update) const {
     MeshData next = *this;
     next.revision_ = next_revision();
@@ -256,6 +323,11 @@ MeshData MeshData::updated(MeshUpdate update) const {
     if (update.tangents) next.set_tangents(std::move(*update.tangents));
     if (update.influences) next.set_influences(std::move(*update.influences));
     if (update.targets) next.set_targets(std::move(*update.targets));
+    if (update.levels) {
+        next.set_levels(*update.levels);
+    } else if (update.changes_vertices()) {
+        next.levels_ = nullptr;
+    }
     return next;
 }
 
@@ -298,6 +370,7 @@ MeshData MeshData::flat_shaded(const MeshData* before) const {
     follow(&MeshData::uvs1_);
     follow(&MeshData::tangents_);
     flat.targets_ = nullptr;
+    flat.levels_ = nullptr;
     if (influences_ && before != nullptr && before->influences_of_ == influences_) {
         flat.influences_ = before->influences_;
     } else if (influences_) {
@@ -367,6 +440,8 @@ MeshData MeshData::with_tangents(int uv_set, const MeshData* before) const {
     made.influences_of_ = influences_;
     // Split vertices would get other smooth normals after an update of their positions.
     if (made.sources_) made.smooth_ = false;
+    if (made.sources_) made.levels_ = nullptr;  // their corners would need to choose between copies
+    made.make_levels_again(1.0);
     return made;
 }
 
@@ -394,6 +469,7 @@ MeshData MeshData::morphed(std::span<const float> weights, const MeshData* befor
     MeshData next = *this;
     next.revision_ = next_revision();
     next.targets_ = nullptr;
+    next.levels_ = nullptr;
     next.identity_ = before != nullptr ? before->identity_ : std::make_shared<const MeshIdentity>();
     const auto changes = [&]<class Vector>(MorphTarget::Array<Vector> const& (MorphTarget::*of)()
                                                const) {
@@ -444,6 +520,7 @@ MeshData MeshData::skinned(std::span<const JointMatrix> joints, const MeshData* 
     SkinnedVertices made =
         skin({positions().get(), smooth_ ? nullptr : normals().get(), tangents().get()},
              *influences_, joints);
+    next.levels_ = nullptr;
     if (made.mirrors) {
         next.triangles_ = std::make_shared<const std::vector<glm::uvec3>>(
             turned_triangles(*triangles(), made.sides));
@@ -503,6 +580,7 @@ MeshData MeshData::centered_and_scaled(double size) const {
         }
         next.set_targets(std::move(targets));
     }
+    next.make_levels_again(factor);
     return next;
 }
 

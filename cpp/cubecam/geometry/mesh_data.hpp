@@ -47,6 +47,22 @@ struct VertexStream {
     std::uint64_t revision = 0;
 };
 
+class MeshData;
+
+/// A simpler form of a mesh, a level of detail, as it is given.
+struct MeshLevel {
+    std::vector<glm::uvec3> triangles;  ///< between vertices of the mesh
+    /// At most so far lie points of either surface from the other, in the mesh's units.
+    double error;
+};
+
+/// A level of detail as it is drawn.
+struct DrawnLevel {
+    std::shared_ptr<const std::vector<glm::uvec3>> triangles;  ///< between vertices of the mesh
+    double error;
+    std::shared_ptr<const MeshData> mesh;  ///< the same surface with the vertices that it uses
+};
+
 /// New values of vertices; the mesh keeps its values where a member is absent.
 struct MeshUpdate {
     std::optional<std::vector<glm::vec3>> positions;
@@ -58,10 +74,13 @@ struct MeshUpdate {
     std::optional<std::vector<glm::vec4>> tangents;               ///< empty: none
     std::optional<std::shared_ptr<const Influences>> influences;  ///< null: none
     std::optional<MorphTargets> targets;
+    std::optional<std::vector<MeshLevel>> levels;  ///< empty: none
 
+    bool changes_vertices() const {
+        return positions || normals || uvs || colors || uvs1 || tangents;
+    }
     bool empty() const {
-        return !positions && !normals && !uvs && !colors && !uvs1 && !tangents && !influences &&
-               !targets;
+        return !changes_vertices() && !influences && !targets && !levels;
     }
 };
 
@@ -83,10 +102,11 @@ public:
         std::vector<glm::vec4> tangents;    ///< empty: none
         std::shared_ptr<const Influences> influences = nullptr;  ///< null: none
         MorphTargets targets = {};
+        std::vector<MeshLevel> levels = {};  ///< from fine to coarse
     };
 
-    /// @throws std::invalid_argument for no triangle, a value that is not finite, or lengths that
-    /// differ from positions';
+    /// @throws std::invalid_argument for no triangle, a value that is not finite, lengths that
+    /// differ from positions', or errors of levels that are negative or decrease;
     /// @throws std::out_of_range for an index beyond the vertices.
     explicit MeshData(Arrays arrays);
 
@@ -106,6 +126,8 @@ public:
     const std::shared_ptr<const Influences>& influences() const { return influences_; }
     /// Null: none.
     const std::shared_ptr<const MorphTargets>& targets() const { return targets_; }
+    /// Levels of detail, from fine to coarse; null: none.
+    const Array<DrawnLevel>& levels() const { return levels_; }
     std::size_t target_count() const { return targets_ ? targets_->size() : 0; }
     /// Of the positions, whatever joints and morph targets make of them.
     const Bounds& bounds() const { return bounds_; }
@@ -128,7 +150,7 @@ public:
     const VertexStream<glm::vec4>& tangent_stream() const { return tangents_; }
 
     /// The same mesh after an update. New positions without normals keep normals that were given;
-    /// smooth normals are computed again.
+    /// smooth normals are computed again. New values of vertices end the levels of detail.
     /// @throws std::invalid_argument for another number of vertices, or a value that is not finite.
     MeshData updated(MeshUpdate update) const;
 
@@ -178,6 +200,10 @@ private:
     void set_colors(std::vector<glm::vec4> colors);
     void set_influences(std::shared_ptr<const Influences> influences);
     void set_targets(MorphTargets targets);
+    void set_levels(const std::vector<MeshLevel>& levels);
+    /// Makes the drawn forms of the levels again, with errors multiplied by `factor`.
+    void make_levels_again(double factor);
+    DrawnLevel drawn_level(Array<glm::uvec3> level_triangles, double error) const;
     /// Sets positions or normals that a deformation made, which need no checks.
     void set_deformed_positions(std::vector<glm::vec3> positions);
     void set_deformed_normals(std::vector<glm::vec3> normals, bool lost);
@@ -198,6 +224,7 @@ private:
     /// Those of the mesh from which flat_shaded() or with_tangents() made `influences_`.
     std::shared_ptr<const Influences> influences_of_;
     std::shared_ptr<const MorphTargets> targets_;
+    Array<DrawnLevel> levels_;
     Bounds bounds_;
     bool smooth_ = false;
     bool translucent_colors_ = false;

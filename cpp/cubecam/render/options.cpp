@@ -30,10 +30,17 @@ void check_finite(const glm::dvec3& value, const char* what) {
     throw std::invalid_argument(std::string(what) + ": expected 3 finite numbers");
 }
 
+void check_lod_error(double pixels) {
+    if (pixels >= 0.0 && std::isfinite(pixels)) return;
+    throw std::invalid_argument("max_lod_error: expected pixels, finite and not negative, got " +
+                                std::to_string(pixels));
+}
+
 }  // namespace
 
 void check_buffers(const FrameOptions& options) {
     check_outputs_of(options.outputs, options.depth_format);
+    check_lod_error(options.max_lod_error);
     if (!(options.exposure >= -64.0 && options.exposure <= 64.0)) {
         throw std::invalid_argument("exposure: expected -64 to 64 stops, got " +
                                     std::to_string(options.exposure));
@@ -61,6 +68,7 @@ void check_buffers(const FrameOptions& options) {
 void check(const CaptureOptions& options) {
     check_finite(options.position, "position");
     if (options.eye) check_finite(*options.eye, "eye");
+    check_lod_error(options.max_lod_error);
     if (!(options.near > 0.0) || !(options.far > options.near) || !std::isfinite(options.far)) {
         throw std::invalid_argument("near, far: expected 0 < near < far, got near " +
                                     std::to_string(options.near) + " and far " +

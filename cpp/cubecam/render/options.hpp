@@ -41,6 +41,7 @@ struct FrameOptions {
     DepthFormat depth_format = DepthFormat::depth_component32f;
     /// What surfaces reflect is looked up in a picture of the same views first.
     bool screen_reflections = false;
+    double max_lod_error = 0.0;  ///< pixels; see LevelChoice
 };
 
 struct CaptureOptions {
@@ -56,6 +57,7 @@ struct CaptureOptions {
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< of the cube's axes
     DepthFormat depth_format = DepthFormat::depth_component32f;
     DepthOrder depth_order = DepthOrder::nearest;
+    double max_lod_error = 0.0;  ///< pixels; see LevelChoice
 };
 
 /// Throws std::invalid_argument for a position that is not finite, or clip distances out of order.

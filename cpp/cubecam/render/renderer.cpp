@@ -359,7 +359,7 @@ auto Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraVa
         for (const CameraValue& camera : cameras) {
             views.push_back(camera_view(matrices(camera, aspect)));
         }
-        FrameContext frame(gpu, scene);
+        FrameContext frame(gpu, scene, options.max_lod_error);
         frame.draw(std::move(views), target, seen_by_all, {}, post_process,
                    options.screen_reflections);
         stats_ = frame.stats;
@@ -382,7 +382,7 @@ auto Renderer::capture_views(const SceneSnapshot& scene, const CaptureOptions& o
         Target& target = gpu.targets.get(gpu.context, description, result_bytes(description));
         std::vector<View> views =
             cube_views(options.position, options.near, options.far, options.eye, options.rotation);
-        FrameContext frame(gpu, scene);
+        FrameContext frame(gpu, scene, options.max_lod_error);
         Key wanted;
         wanted.add(true);  // a capture
         for (const std::int32_t id : options.exclude) wanted.add(id);
@@ -529,7 +529,7 @@ void Renderer::capture_batch(const SceneSnapshot& scene, const CaptureOptions& o
         Stats sum;
         for (std::size_t i = 0; i < places.size(); ++i) {
             if (i > 0) ++gpu.call;  // for probes that are drawn every few calls
-            FrameContext frame(gpu, scene);
+            FrameContext frame(gpu, scene, options.max_lod_error);
             frame.draw(cube_views(places[i].position, options.near, options.far, options.eye,
                                   places[i].rotation),
                        batch, i, seen);

@@ -44,6 +44,7 @@ def capture_many(
     eye: npt.ArrayLike | None = None,
     depth_format: DepthFormat = "depth_component32f",
     depth_order: DepthOrder = "nearest",
+    max_lod_error: float = 0.0,
     progress: bool = True,
 ) -> CubeMapBatch:
     """Capture a scene from many places.
@@ -69,7 +70,7 @@ def capture_many(
         Clip distances, world units, 0 < near < far.
     exclude : iterable of Node
         Nodes that are left out with all nodes below them.
-    format, samples, eye, depth_format, depth_order
+    format, samples, eye, depth_format, depth_order, max_lod_error
         As in `Renderer.capture`, for all captures.
     progress : bool
         Whether a bar shows on the error stream how many captures are done, if it is a terminal and the work takes more
@@ -115,6 +116,7 @@ def capture_many(
         eye=eye,
         depth_format=depth_format,
         depth_order=depth_order,
+        max_lod_error=max_lod_error,
     )
     made = _room_for(batch, len(batch))
     made.positions, made.rotations = floats_of(positions), floats_of(rotations)
@@ -143,6 +145,7 @@ def iter_captures(
     eye: npt.ArrayLike | None = None,
     depth_format: DepthFormat = "depth_component32f",
     depth_order: DepthOrder = "nearest",
+    max_lod_error: float = 0.0,
     progress: bool = True,
 ) -> Iterator[CubeMap]:
     """Capture a scene from many places, and give one cubemap after the other.
@@ -152,7 +155,9 @@ def iter_captures(
 
     Parameters
     ----------
-    scene, positions, size, outputs, rotations, near, far, exclude, format, samples, eye, depth_format, depth_order
+    scene, positions, size, outputs, rotations, near, far, exclude, format, samples, eye
+        As in `capture_many`.
+    depth_format, depth_order, max_lod_error
         As in `capture_many`.
     progress : bool
         As in `capture_many`.
@@ -192,6 +197,7 @@ def iter_captures(
         eye=eye,
         depth_format=depth_format,
         depth_order=depth_order,
+        max_lod_error=max_lod_error,
     )
     return _one_by_one(batch, _room_for(batch, min(batch.most_cubes, len(batch))), progress)
 
@@ -221,6 +227,7 @@ def capture_scenes(
     samples: int = 1,
     depth_format: DepthFormat = "depth_component32f",
     depth_order: DepthOrder = "nearest",
+    max_lod_error: float = 0.0,
     progress: bool = True,
 ) -> CubeMapBatch:
     """Capture many scenes, of which each lives only until it is captured.
@@ -238,7 +245,7 @@ def capture_scenes(
         N, pixels along an edge of a face.
     renderer : Renderer, optional
         What captures. None: one is made for the call.
-    outputs, near, far, format, samples, depth_format, depth_order
+    outputs, near, far, format, samples, depth_format, depth_order, max_lod_error
         As in `Renderer.capture`.
     progress : bool
         As in `Renderer.capture_many`.
@@ -290,6 +297,7 @@ def capture_scenes(
             eye=None,
             depth_format=depth_format,
             depth_order=depth_order,
+            max_lod_error=max_lod_error,
         )
 
     used = Renderer() if renderer is None else renderer

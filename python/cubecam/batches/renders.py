@@ -37,6 +37,7 @@ def render_many(
     effects: Iterable[ImageEffect] = (),
     depth_format: DepthFormat | None = "depth_component32f",
     screen_reflections: bool = False,
+    max_lod_error: float = 0.0,
     progress: bool = True,
 ) -> FrameBatch:
     """Render a scene for many cameras, as `Renderer.render` does for one.
@@ -51,7 +52,7 @@ def render_many(
         A frame is rendered for each.
     size : (int, int)
         (width, height) of each frame, pixels.
-    outputs, format, samples, exposure, tonemap, encode, effects, depth_format, screen_reflections
+    outputs, format, samples, exposure, tonemap, encode, effects, depth_format, screen_reflections, max_lod_error
         As in `Renderer.render`, for all frames.
     progress : bool
         Whether a bar shows on the error stream how many frames are done, if it is a terminal and the work takes more
@@ -93,6 +94,7 @@ def render_many(
         effects=effects,
         depth_format=depth_format,
         screen_reflections=screen_reflections,
+        max_lod_error=max_lod_error,
     )
     made: FrameBatch | None = None
     with bar("frames", len(batch), None if progress else False) as advance:

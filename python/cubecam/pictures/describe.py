@@ -76,6 +76,9 @@ def _(mesh: Mesh) -> Card:
         if getattr(mesh, name) is not None
     ]
     facts.append(Fact("per vertex", ", ".join(["positions", *has])))
+    if mesh.levels:
+        counts = [f"{len(indices):,}" for indices, _ in mesh.levels]
+        facts.append(Fact("levels", ", ".join(counts) + " triangles"))
     return Card("Mesh", facts, picture=lambda: draw_mesh(mesh))
 
 

@@ -120,7 +120,7 @@ std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& l
                     {},
                     node.revision,
                     node.world,
-                    node.mesh->revision(),
+                    drawn_mesh(node, planned)->revision(),
                     node.material.revision,
                     0,
                     0};

@@ -25,8 +25,9 @@ constexpr std::size_t most_mirror_pictures = 256;
 
 }  // namespace
 
-FrameContext::FrameContext(RendererState& its_gpu, const SceneSnapshot& its_scenes)
-    : gpu(its_gpu), scenes(its_scenes), pictures([this](const PictureId& id) { return make(id); }),
+FrameContext::FrameContext(RendererState& its_gpu, const SceneSnapshot& its_scenes,
+                           double lod_error)
+    : gpu(its_gpu), scenes(its_scenes), max_lod_error(lod_error), pictures([this](const PictureId& id) { return make(id); }),
       contents_(its_scenes.others.size() + 1), circles_(contents_.size()) {
     std::map<const void*, std::size_t> users;  // how many scenes so far use an object; not iterated
     for (std::size_t s = 0; s < contents_.size(); ++s) {
@@ -62,6 +63,7 @@ void FrameContext::draw(std::vector<View> views, Target& target,
                         PostProcess post_process, bool screen_reflections) {
     Key request = std::move(wanted_key);
     request.add(screen_reflections);
+    request.add(max_lod_error);
     for (const View& view : views) add_view(request, view);
     add_grading(request, post_process);
     const std::optional<UnchangedCall>& last = target.unchanged;

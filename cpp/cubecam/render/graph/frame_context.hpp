@@ -26,7 +26,8 @@ class FrameContext {
 public:
     /// @throws std::invalid_argument if the lights of a scene have more or larger shadows than the
     /// driver allows, or for a planar mirror on a mesh that is not flat.
-    FrameContext(RendererState& gpu, const SceneSnapshot& scenes);
+    /// @param max_lod_error see LevelChoice.
+    FrameContext(RendererState& gpu, const SceneSnapshot& scenes, double max_lod_error = 0.0);
     FrameContext(const FrameContext&) = delete;
     FrameContext& operator=(const FrameContext&) = delete;
 
@@ -61,6 +62,9 @@ public:
 
     RendererState& gpu;
     const SceneSnapshot& scenes;  ///< the first scene, which holds the others
+    /// Of the frame or the capture, and what it shows behind panes, in planar mirrors and on the
+    /// screen. Probes, render textures and shadow maps serve other calls, too: they are exact.
+    const double max_lod_error;
     Stats stats;
     PictureGraph pictures;
 

@@ -99,11 +99,18 @@ Dependencies ScenePicture::possible() {
     return shown;
 }
 
+double ScenePicture::max_lod_error() const {
+    const PictureId* root = &id_;
+    while (root->viewer != nullptr) root = root->viewer.get();
+    return root->kind == PictureKind::frame ? context_.max_lod_error : 0.0;
+}
+
 Dependencies ScenePicture::plan(std::vector<View> views, const TargetDescription& target) {
     views_ = std::move(views);
     plan_ = make_plan(
         scene_, views_, target.width, target.height,
-        [this](const NodeSnapshot& node) { return sees(node); }, depth_mode(target.depth_format));
+        [this](const NodeSnapshot& node) { return sees(node); }, depth_mode(target.depth_format),
+        max_lod_error());
     Dependencies shown;
     const bool shadows = has_shadows(scene_);
     shows_shadows_ = false;

@@ -88,6 +88,8 @@ private:
     /// Calls `draw` with a DrawnPicture of the planned views.
     template <class Draw>
     auto with_picture(const PostProcess& post_process, const Draw& draw);
+    /// The pixels by which levels of detail may be off in this picture.
+    double max_lod_error() const;
     /// Notes that a planned node shows its planar mirror. `size` is that of the picture in pixels.
     void add_mirror(const PlannedNode& planned, const std::vector<Rect>& windows,
                     const glm::ivec2& size);

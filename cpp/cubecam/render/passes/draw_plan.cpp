@@ -1,5 +1,6 @@
 #include "cubecam/render/passes/draw_plan.hpp"
 
+#include "cubecam/render/passes/level_choice.hpp"
 #include "cubecam/render/passes/screen_bounds.hpp"
 
 #include <algorithm>
@@ -58,7 +59,9 @@ bool same_place(const View& a, const View& b) {
 }
 
 DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int width, int height,
-                   const std::function<bool(const NodeSnapshot&)>& wanted, DepthMode depth_mode) {
+                   const std::function<bool(const NodeSnapshot&)>& wanted, DepthMode depth_mode,
+                   double max_lod_error) {
+    const LevelChoice levels(scene, views, {width, height}, max_lod_error);
     DrawPlan plan;
     plan.depth_mode = depth_mode;
     std::vector<SortKey> opaque;
@@ -84,6 +87,7 @@ DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int 
             if (count == 0) continue;
 
             SortKey key{node.render_order, 0, 0.0, {index, first, count}};
+            key.planned.level = levels.of(node, plan.visible_in(key.planned));
             if (depth_mode == DepthMode::by_order) {
                 opaque.push_back(key);
                 continue;

@@ -23,7 +23,14 @@ struct PlannedNode {
     std::uint32_t node;   ///< index into SceneSnapshot::nodes
     std::uint32_t first;  ///< index into DrawPlan::visibilities
     std::uint32_t count;
+    std::uint32_t level = 0;  ///< 0: the mesh; i: its level of detail number i - 1
 };
+
+/// What a planned node draws.
+inline const std::shared_ptr<const MeshData>& drawn_mesh(const NodeSnapshot& node,
+                                                         const PlannedNode& planned) {
+    return planned.level == 0 ? node.mesh : (*node.mesh->levels())[planned.level - 1].mesh;
+}
 
 /// Whether a pass tests depth or draws each node over the ones before.
 enum class DepthMode { by_depth, by_order };
@@ -62,9 +69,10 @@ bool same_place(const View& a, const View& b);
 
 /// Plans pictures of `width` x `height`: culls every node for which `wanted` is true against every
 /// view, and sorts the others. The id breaks ties, so the order depends only on the scene and the
-/// views.
+/// views. Views at one position show the same level of detail of a node.
+/// @param max_lod_error see LevelChoice.
 DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int width, int height,
                    const std::function<bool(const NodeSnapshot&)>& wanted,
-                   DepthMode depth_mode = DepthMode::by_depth);
+                   DepthMode depth_mode = DepthMode::by_depth, double max_lod_error = 0.0);
 
 }  // namespace cubecam

@@ -87,11 +87,12 @@ SurfaceItems find_items(const SurfaceInput& input, GpuCache& cache) {
         }
         const auto count = static_cast<std::uint32_t>(items.regions.size()) - first;
         if (count == 0) return;
-        if (node.mesh.get() != last_mesh) {
-            last_mesh = node.mesh.get();
-            last_gpu_mesh = &cache.mesh(*node.mesh);
+        const MeshData* mesh = drawn_mesh(node, planned).get();
+        if (mesh != last_mesh) {
+            last_mesh = mesh;
+            last_gpu_mesh = &cache.mesh(*mesh);
         }
-        to.push_back({&node, last_gpu_mesh, &input.textures[planned.node], first, count});
+        to.push_back({&node, mesh, last_gpu_mesh, &input.textures[planned.node], first, count});
     };
     for (const PlannedNode& planned : input.plan.opaque) add(planned, items.opaque);
     for (const PlannedNode& planned : input.plan.transparent) add(planned, items.transparent);
@@ -176,7 +177,8 @@ SurfaceCall SurfaceCallBuilder::alone(const SurfaceItem& item) {
 
 std::optional<IndexRange> SurfaceCallBuilder::pick(const SurfaceItem& item, std::size_t region) {
     const Region& part = input_.regions[region];
-    return picker_.pick(*item.node, *item.mesh, input_.views[part.view], part.rect, size_);
+    return picker_.pick(*item.node, *item.data, *item.mesh, input_.views[part.view], part.rect,
+                        size_);
 }
 
 void SurfaceCallBuilder::add_together(const SurfaceItem& item, std::optional<IndexRange> indices,

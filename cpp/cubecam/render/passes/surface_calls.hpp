@@ -23,7 +23,8 @@ struct ViewBlock {
 /// A planned node and the regions in which it is visible.
 struct SurfaceItem {
     const NodeSnapshot* node;
-    const GpuMesh* mesh;
+    const MeshData* data;  ///< the node's mesh, or a level of detail of it
+    const GpuMesh* mesh;   ///< of these data
     const NodeTextures* textures;
     std::uint32_t first_region;  ///< index into SurfaceItems::regions
     std::uint32_t region_count;

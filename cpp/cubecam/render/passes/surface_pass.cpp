@@ -527,6 +527,10 @@ void SurfacePass::draw_calls(std::span<const SurfaceCall> calls, bool mirror, bo
         draw();
         if (call.indices) gl_->VertexArrayElementBuffer(array, mesh.indices.id());
         stats.triangles += std::int64_t{indices.count / 3} * call.count;
+        stats.triangles_simplified +=
+            (static_cast<std::int64_t>(node.mesh->triangles()->size()) -
+             static_cast<std::int64_t>(call.item->data->triangles()->size())) *
+            call.count;
     }
 }
 

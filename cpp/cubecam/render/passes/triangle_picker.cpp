@@ -14,8 +14,8 @@ constexpr double assumed_waste = 0.5;
 
 constexpr std::size_t bits = 64;
 
-bool is_parted(const NodeSnapshot& node, const PartCosts& costs) {
-    if (node.unbounded || node.mesh->triangles()->size() < costs.fewest_triangles) return false;
+bool is_parted(const NodeSnapshot& node, const MeshData& data, const PartCosts& costs) {
+    if (node.unbounded || data.triangles()->size() < costs.fewest_triangles) return false;
     const MaterialTraits& traits = node.material.value.traits();
     return !traits.user_code || !traits.user_code->counts_triangles;
 }
@@ -27,18 +27,18 @@ double displacement_of(const NodeSnapshot& node) {
 
 }  // namespace
 
-std::optional<IndexRange> TrianglePicker::pick(const NodeSnapshot& node, const GpuMesh& mesh,
-                                               const View& view, const Rect& rect,
+std::optional<IndexRange> TrianglePicker::pick(const NodeSnapshot& node, const MeshData& data,
+                                               const GpuMesh& mesh, const View& view, const Rect& rect,
                                                const glm::ivec2& size) {
     const PartCosts& costs = cache_->part_costs();
-    if (!is_parted(node, costs)) return std::nullopt;
+    if (!is_parted(node, data, costs)) return std::nullopt;
     const PartFrustum part = Culling(view).part_frustum(node, rect, size.x, size.y);
     const Overlap overlap =
         part.frustum.overlap(node.bounds.center(), 0.5 * node.bounds.extent(), part.error);
     if (overlap == Overlap::all) return std::nullopt;
-    const std::vector<glm::uvec3>& triangles = *node.mesh->triangles();
+    const std::vector<glm::uvec3>& triangles = *data.triangles();
     const auto all = static_cast<double>(triangles.size());
-    const TriangleClusters* clusters = cache_->clusters(*node.mesh, assumed_waste * all);
+    const TriangleClusters* clusters = cache_->clusters(data, assumed_waste * all);
     if (clusters == nullptr) return std::nullopt;
     ranges_.clear();
     const auto most = static_cast<std::size_t>(costs.most_share * all);

@@ -33,8 +33,10 @@ public:
 
     /// The triangles of a node that can touch `rect` in a picture of `size`; none: the whole mesh
     /// is to be sent. A count of 0: nothing is to be sent.
-    std::optional<IndexRange> pick(const NodeSnapshot& node, const GpuMesh& mesh, const View& view,
-                                   const Rect& rect, const glm::ivec2& size);
+    /// @param data the node's mesh, or a level of detail of it.
+    std::optional<IndexRange> pick(const NodeSnapshot& node, const MeshData& data,
+                                   const GpuMesh& mesh, const View& view, const Rect& rect,
+                                   const glm::ivec2& size);
 
     /// The indices of all picked triangles.
     const std::vector<std::byte>& bytes() const { return bytes_; }

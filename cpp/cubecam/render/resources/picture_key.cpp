@@ -85,7 +85,8 @@ struct Comparison {
     bool same(const NodeKey& a, const NodeKey& b) const {
         if (a.bounds != b.bounds || a.receive_shadow != b.receive_shadow) return false;
         if (a.receive_shadow && !same_shadows) return false;
-        if (a.revision != b.revision && (a.mesh != b.mesh || a.material != b.material ||
+        if (a.mesh != b.mesh) return false;  // a node may show another level of detail
+        if (a.revision != b.revision && (a.material != b.material ||
                                          a.world != b.world || a.label != b.label)) {
             return false;
         }

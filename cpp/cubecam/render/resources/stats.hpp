@@ -14,6 +14,8 @@ struct Stats {
     std::int64_t triangles = 0;  ///< sent to the GPU, counted for each view
     /// Triangles of drawn meshes that were not sent, since they lie outside of what was drawn.
     std::int64_t triangles_skipped = 0;
+    /// Triangles that the exact meshes have more than the levels of detail that were drawn.
+    std::int64_t triangles_simplified = 0;
     std::int64_t probes_updated = 0;      ///< probes of which at least one face was drawn
     std::int64_t textures_updated = 0;    ///< render textures that were drawn
     std::int64_t shadow_views_drawn = 0;  ///< layers of shadow maps; a point light has six
@@ -31,6 +33,7 @@ struct Stats {
         draw_calls += more.draw_calls;
         triangles += more.triangles;
         triangles_skipped += more.triangles_skipped;
+        triangles_simplified += more.triangles_simplified;
         probes_updated += more.probes_updated;
         textures_updated += more.textures_updated;
         shadow_views_drawn += more.shadow_views_drawn;
