@@ -55,7 +55,7 @@ nitpick_ignore_regex = [
     # What some properties of live views give; they are made by cubecam alone.
     (r"py:.*", r"(Cross|Facts|Look|Panorama|Plane|Section)"),
     (r"py:.*", r"(Axes|Figure|Normalize|Colormap|Console|Self|AnyLight|AnyCamera|MutableMapping)"),
-    (r"py:.*", r"(xarray\.Dataset|Dataset)"),
+    (r"py:.*", r"(xarray\.Dataset|Dataset|dask\.array\.Array|Client|(zarr\.abc\.store\.)?Store)"),
     (r"py:.*", r"T"),  # what a PictureFuture gives
 ]
 

@@ -9,12 +9,14 @@ import datetime
 import decimal
 import enum
 import fractions
+import functools
 import inspect
-import sys
 import operator
 import pathlib
+import sys
 import typing
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
@@ -333,4 +335,17 @@ def python_functions() -> dict[str, Callable[..., Any]]:
         for name, member in inspect.getmembers(kind, inspect.isfunction):
             if not name.startswith("_"):
                 found[f"{kind.__name__}.{name}"] = member
-    return found
+    return found | pool_functions()
+
+
+def pool_functions() -> dict[str, Callable[..., Any]]:
+    """Give the functions of `cubecam.Pool`."""
+    members = inspect.getmembers(cc.Pool, inspect.isfunction)
+    found = {f"Pool.{name}": member for name, member in members if not name.startswith("_")}
+    return {"Pool": cc.Pool.__init__, **found}
+
+
+@functools.cache
+def pool() -> cc.Pool:
+    """Give a pool that draws in this process."""
+    return cc.Pool(executor=ThreadPoolExecutor(1), device="software")

@@ -202,19 +202,11 @@ bool any_probe(const SceneSnapshot& scene, Is is) {
     return false;
 }
 
-/// Whether the pictures of a batch depend on those before them: a probe is drawn in parts.
-template <class Batch>
-bool in_order(const Batch& batch) {
-    return any_probe(*batch.scene, [](const ProbeValue& probe) {
-        return probe.faces_per_frame < face_count && probe.update != ProbeUpdate::manual;
-    });
-}
-
-/// Whether a probe may keep what it was drawn from, although the scene has changed since.
+/// Whether a probe of the scene may show what the scene was when it was drawn before.
 bool keeps_pictures(const CaptureBatch& batch) {
-    return in_order(batch) || any_probe(*batch.scene, [](const ProbeValue& probe) {
-               return probe.update != ProbeUpdate::on_change;
-           });
+    return any_probe(*batch.scene, [](const ProbeValue& probe) {
+        return probe.update != ProbeUpdate::on_change || probe.faces_per_frame < face_count;
+    });
 }
 
 PyFrame render(RenderBatch& batch, std::size_t number) {
@@ -250,8 +242,9 @@ void bind_batches(pybind11::module_& module) {
         .def_property_readonly(
             "outputs",
             [](const CaptureBatch& self) -> OutputKinds { return described(self.shape.outputs); })
-        .def_property_readonly("in_order", &in_order<CaptureBatch>,
-                               "bool: whether its pictures depend on those before them.")
+        .def_property_readonly(
+            "revision", [](const CaptureBatch& self) { return self.scene->revision; },
+            "int: of the scene; equal ones show the same.")
         .def_property_readonly("keeps_pictures", &keeps_pictures,
                                "bool: whether its pictures depend on what was drawn of the scene "
                                "before.")
@@ -263,8 +256,9 @@ void bind_batches(pybind11::module_& module) {
              py::arg("samples"), py::arg("exposure"), py::arg("tonemap"), py::arg("encode"),
              py::arg("effects"), py::arg("depth_format"), py::arg("screen_reflections"))
         .def("__len__", [](const RenderBatch& self) { return self.cameras.size(); })
-        .def_property_readonly("in_order", &in_order<RenderBatch>,
-                               "bool: whether its pictures depend on those before them.")
+        .def_property_readonly(
+            "revision", [](const RenderBatch& self) { return self.scene->revision; },
+            "int: of the scene with the effects; equal ones show the same.")
         .def_property_readonly("encoding",
                                [](const RenderBatch& self) -> EncodingNow {
                                    return to_string(

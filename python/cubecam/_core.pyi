@@ -10045,12 +10045,6 @@ class _CaptureBatch:
     @property
     def encoding(self) -> Encoding: ...
     @property
-    def in_order(self) -> bool:
-        """
-        bool: whether its pictures depend on those before them.
-        """
-
-    @property
     def keeps_pictures(self) -> bool:
         """
         bool: whether its pictures depend on what was drawn of the scene before.
@@ -10060,6 +10054,12 @@ class _CaptureBatch:
     def most_cubes(self) -> int: ...
     @property
     def outputs(self) -> list[tuple[str, int, np.dtype[np.generic]]]: ...
+    @property
+    def revision(self) -> int:
+        """
+        int: of the scene; equal ones show the same.
+        """
+
     @property
     def size(self) -> int: ...
 
@@ -10100,9 +10100,9 @@ class _RenderBatch:
     @property
     def encoding(self) -> Encoding: ...
     @property
-    def in_order(self) -> bool:
+    def revision(self) -> int:
         """
-        bool: whether its pictures depend on those before them.
+        int: of the scene with the effects; equal ones show the same.
         """
 
 def _at_interrupt_check(function: object) -> None:

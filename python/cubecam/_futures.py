@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import atexit
 import os
-import signal
 import sys
 import threading
 import weakref
@@ -19,6 +18,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from . import _core
 from ._core import ContextError, Error
+from ._processes import leave_signals_to_others
 from ._warnings import RendererWarning, UsersLine, warn_at
 
 if TYPE_CHECKING:
@@ -33,9 +33,6 @@ _MOST_WAITING = 64
 
 #: After so many seconds without a call the thread of a renderer ends.
 _IDLE = 1.0
-
-#: Signals that a thread needs, since they tell what it did itself.
-_OWN_SIGNALS = {signal.SIGSEGV, signal.SIGBUS, signal.SIGFPE, signal.SIGILL, signal.SIGABRT}
 
 
 class PictureFuture(Future[T]):
@@ -255,8 +252,7 @@ class _Calls:
             self.changed.notify_all()
 
     def _serve(self) -> None:
-        # Signals are for the threads of the program: one that the system gives to this thread ends no wait there.
-        signal.pthread_sigmask(signal.SIG_BLOCK, signal.valid_signals() - _OWN_SIGNALS)
+        leave_signals_to_others()
         travelling: _Call | None = None
         while True:
             call = self._next(at_once=travelling is not None)

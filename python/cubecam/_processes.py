@@ -18,10 +18,14 @@ import sys
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 
-__all__ = ["Channel", "Process", "ending_of", "interpreter", "run"]
+__all__ = ["Channel", "Process", "ending_of", "interpreter", "leave_signals_to_others", "run"]
 
 _SIZE = struct.Struct("<Q")
 _MOST_DESCRIPTORS = 4
+
+#: Signals that a thread needs, since they tell what it did itself.
+_OWN_SIGNALS = {signal.SIGSEGV, signal.SIGBUS, signal.SIGFPE, signal.SIGILL, signal.SIGABRT}
+
 _START = (
     "import sys; sys.path[:] = {path!r}; "
     "from cubecam._processes import run; run({function!r}, {number})"
@@ -136,6 +140,11 @@ class Process:
         self.channel = Channel(here)
 
     @property
+    def lives(self) -> bool:
+        """bool: whether the process has not ended."""
+        return self._process.poll() is None
+
+    @property
     def pid(self) -> int:
         """int: the process's number."""
         return self._process.pid
@@ -173,8 +182,14 @@ def ending_of(status: int) -> str:
         return f"the signal {-status}"
 
 
+def leave_signals_to_others() -> None:
+    """Block signals in this thread: one that the system gives to it would end no wait of the main thread."""
+    signal.pthread_sigmask(signal.SIG_BLOCK, signal.valid_signals() - _OWN_SIGNALS)
+
+
 def run(function: str, number: int) -> None:
     """Be the other process: call a function with the channel."""
+    signal.pthread_sigmask(signal.SIG_SETMASK, [])  # not those of the thread that started it
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     end = socket.socket(fileno=number)
     end.set_inheritable(False)

@@ -8,6 +8,7 @@ import json
 import os
 import pickle
 import sys
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ import pytest
 import cubecam as cc
 from cubecam import cluster
 from cubecam.cluster import stores, worker
+from cubecam.cluster.plan import plan_of
 from tests.helpers import DEVICE
 
 zarr = pytest.importorskip("zarr", minversion="3.1.3")  # Python 3.10 has only zarr 2
@@ -95,7 +97,7 @@ def test_the_store_holds_the_bytes_of_a_renderer(scene, want, whole):
 @pytest.mark.parametrize("way", ["pool", "workers"])
 def test_a_pool_writes_the_same_files(way, scene, whole, tmp_path):
     with contextlib.ExitStack() as stack:
-        how = {"workers": 1}
+        how: dict[str, Any] = {"workers": 1}
         if way == "pool":
             how = {"pool": stack.enter_context(cc.Pool(workers=1, device=DEVICE))}
         write(scene, tmp_path / "a.zarr", **how)
@@ -105,7 +107,13 @@ def test_a_pool_writes_the_same_files(way, scene, whole, tmp_path):
 def test_rotations_excluded_nodes_and_a_store_in_memory(scene, renderer):
     (box,) = scene.find("box")
     store = zarr.storage.MemoryStore()
-    more = {"rotations": TURNS, "exclude": [box], "near": 0.1, "samples": 4, "eye": (0, 1, 0)}
+    more: dict[str, Any] = {
+        "rotations": TURNS,
+        "exclude": [box],
+        "near": 0.1,
+        "samples": 4,
+        "eye": (0, 1, 0),
+    }
     for _ in range(2):
         batch = cluster.capture_to_zarr(scene, PLACES, store, 8, chunk=5, **more)
         want = renderer.capture_many(scene, PLACES, 8, **more)
@@ -157,8 +165,13 @@ def test_whatever_was_written_the_next_call_goes_on(at, scene, want, whole, tmp_
     np.testing.assert_array_equal(batch.faces[: 4 * chunks], want.faces[: 4 * chunks])
     np.testing.assert_array_equal(batch.id[: 4 * chunks], want.id[: 4 * chunks])
     drawn = []
+
+    def counted(*given):
+        drawn.append(given)
+        return worker.draw(*given)
+
     with monkeypatch.context() as patch:
-        patch.setattr(stores, "draw", lambda *given: drawn.append(given) or worker.draw(*given))
+        patch.setattr(stores, "draw", counted)
         assert_same(write(scene, place), want)
     assert len(drawn) == 3 - chunks  # what is there is not drawn again
     assert files_of(place) == files_of(whole)
@@ -346,7 +359,7 @@ def test_without_the_packages_the_error_names_the_command(name, scene, tmp_path,
 
 def test_a_worker_keeps_a_few_scenes_and_one_renderer(scene, want):
     packed = [pickle.dumps((make_scene(color), []), 5) for color in ("red", "green", "blue")]
-    plan = stores.plan_of(
+    plan = plan_of(
         scene, PLACES, None, (), 4,
         {"size": 8, "near": 0.05, "far": 1000.0, "outputs": ("id",), "format": "rgba16f", "samples": 1, "eye": None,
          "depth_format": "depth_component32f", "depth_order": "nearest"},
@@ -403,9 +416,12 @@ class TestDask:
 
     def test_only_what_is_asked_for_is_drawn(self, scene, want, monkeypatch):
         drawn = []
-        monkeypatch.setattr(
-            "cubecam.cluster.arrays.draw", lambda *given: drawn.append(given) or worker.draw(*given)
-        )
+
+        def counted(*given):
+            drawn.append(given)
+            return worker.draw(*given)
+
+        monkeypatch.setattr("cubecam.cluster.arrays.draw", counted)
         data = cluster.capture_dataset(
             scene, PLACES, 8, outputs=("distance", "id"), format="rgba16f", chunk=4
         )
@@ -447,3 +463,43 @@ def test_a_renderer_is_forgotten_in_a_fork():
     if pid == 0:
         os._exit(0 if worker._desk._renderer is None and worker._desk._lock is not before else 1)
     assert os.waitpid(pid, 0)[1] == 0
+
+
+def test_each_file_of_a_chunk_is_written_once_and_the_ledger_last(scene, tmp_path, monkeypatch):
+    """One write of zarr is one file, which gets its name when it is whole: docs/adr/0037 builds upon that."""
+    written = []
+    put = zarr.storage.LocalStore.set
+
+    async def recorded(self, key, value):
+        written.append(key)
+        await put(self, key, value)
+
+    monkeypatch.setattr(zarr.storage.LocalStore, "set", recorded)
+    write(scene, tmp_path / "a.zarr")
+    chunks = [key for key in written if key.split("/")[0] in ("color", "distance", "id", "drawn")]
+    chunks = [key for key in chunks if "/c/" in key]
+    want = [
+        f"{name}/c/{number}" + "/0" * axes
+        for number in range(3)
+        for name, axes in (("color", 4), ("distance", 3), ("id", 3), ("drawn", 0))
+    ]
+    assert chunks == want
+    assert written[-1] == "zarr.json"  # the attribute "complete"
+
+
+def test_zarr_gives_a_file_its_name_when_it_is_whole(tmp_path, monkeypatch):
+    """A process that ends while it writes leaves the file that was there, and one with another name."""
+    array = zarr.create_array(tmp_path / "a.zarr", shape=(4,), chunks=(4,), dtype="i4")
+    array[:] = 1
+    replace = type(tmp_path).replace
+
+    def broken(self, target):
+        if self.suffix == ".partial":
+            raise Ended
+        return replace(self, target)
+
+    monkeypatch.setattr(type(tmp_path), "replace", broken)
+    with pytest.raises(Ended):
+        array[:] = 2
+    monkeypatch.undo()
+    assert (zarr.open_array(tmp_path / "a.zarr", mode="r")[:] == 1).all()

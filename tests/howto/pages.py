@@ -22,6 +22,7 @@ def written(name):
     """The files and folders that the programs of a page write, as their code names them."""
     code = "\n".join(python_blocks(name))
     plain = re.findall(r'(?:save\w*|open_group|to_zarr|mkdir|write_text|Path)\("([^"]+)"', code)
+    plain += re.findall(r'capture_to_zarr\([^"]*"([^"]+)"', code)
     folders = re.findall(r'save_for\("\w+", "([^"]+)"', code)
     named = set(folders) | (set(plain) - set(re.findall(r'save_for\("(\w+)"', code)))
     for path in [path for path in named if "{face}" in path]:

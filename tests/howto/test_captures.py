@@ -1,6 +1,9 @@
 """Pages of captures and pictures: their programs give what the pages say."""
 
+import os
 import re
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -9,7 +12,7 @@ import zarr
 import cubecam as cc
 from cubecam.plot import EDGE_NAMES, seam_ratios
 from tests.compare import assert_close
-from tests.documents import text_of
+from tests.documents import fenced, text_of
 from tests.howto.pages import printed
 from tests.reference.cube_faces import unit_texel_directions
 
@@ -406,3 +409,30 @@ class TestAsynchronous:
             f"{len(mean)} panoramas, none of them black: {min(mean) > 0.1}"
         )
         assert len(scope["around"]) == 20
+
+
+class TestManyProcesses:
+    NAME = "docs/howto/many_processes.md"
+
+    def test_the_program_prints_what_the_page_says(self, pages):
+        _, scope = pages(self.NAME)
+        batch, moved, same = scope["batch"], scope["moved"], scope["same"]
+        assert printed(self.NAME).startswith("CubeMapBatch(100, size=32, ")
+        assert printed(self.NAME).endswith(" True\n")
+        assert moved.faces.tobytes() == same.faces.tobytes()
+        with cc.Renderer() as renderer:  # the threads drew the scene as it is in the end
+            again = renderer.capture_many(scope["scene"], scope["places"], 32)
+        assert batch.faces.tobytes() == again.faces.tobytes()
+
+    def test_the_script_prints_what_the_page_says(self, tmp_path):
+        [code] = fenced(self.NAME, "py")
+        path = tmp_path / "scenes.py"
+        path.write_text(code, encoding="utf-8")
+        done = subprocess.run(
+            [sys.executable, str(path)],
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+            capture_output=True,
+            text=True,
+            timeout=60,
+        )
+        assert done.stdout == fenced(self.NAME, "text")[1], done.stderr

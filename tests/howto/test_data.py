@@ -37,6 +37,13 @@ class TestBulkData:
             assert name in attributes, name
         assert {"color", "face", "channel", "x", "y", "z"} <= set(group)
 
+    def test_captures_that_take_hours(self, pages):
+        folder, scope = pages(self.NAME)
+        stored = cc.open_batch(folder / "many.zarr")
+        assert (len(stored), stored.faces.shards[0], stored.drawn) == (300, 50, None)
+        mean = stored.faces[:].mean((1, 2, 3), dtype=np.float64)
+        np.testing.assert_allclose(scope["means"], mean, rtol=1e-4)
+
     def test_the_store_holds_the_captures(self, pages):
         folder, scope = pages(self.NAME)
         store = zarr.open_group(folder / "captures.zarr", mode="r")

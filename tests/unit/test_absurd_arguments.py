@@ -21,6 +21,7 @@ from cubecam import cluster, demo, explore, navigation, plot, truth
 from cubecam.viewer.cube_view import CubeView
 from cubecam.viewer.viewer import Viewer
 from tests import absurd
+from tests.gl import pool_scenes
 
 PLACES = list(absurd.places())
 BY_CALLABLE = {
@@ -205,6 +206,14 @@ NEEDED: dict[str, Any] = {
         "size": (2, 2),
     },
     "capture_scenes": lambda: {"make_scene": lambda number: cc.Scene(), "count": 1, "size": 1},
+    "Pool.capture_many": lambda: {"scene": cc.Scene(), "positions": [(0, 0, 0)], "size": 1},
+    "Pool.iter_captures": lambda: {"scene": cc.Scene(), "positions": [(0, 0, 0)], "size": 1},
+    "Pool.render_many": lambda: {
+        "scene": cc.Scene(),
+        "cameras": [cc.PerspectiveCamera()],
+        "size": (2, 2),
+    },
+    "Pool.capture_scenes": lambda: {"make_scene": pool_scenes.numbered, "count": 1, "size": 1},
     "Renderer.capture_async": lambda: {"scene": cc.Scene(), "size": 1},
     "Renderer.render": lambda: {
         "scene": cc.Scene(),
@@ -291,8 +300,8 @@ NEEDED: dict[str, Any] = {
 #: whose annotation names other types only every fourth value.
 SLOW = (
     "demo.run", "demo.build_scene", "Scene.show", "CubeMap.show", "explore.reflection", "explore.layout", "Renderer",
-    "Viewer", "CubeView", "ReflectionView", "LayoutView", "load_environment", "plot.", "CubeMap.save_for", "Frame.save",
-    "save_animation", "CubeMap.save", "cluster.",
+    "Pool", "Viewer", "CubeView", "ReflectionView", "LayoutView", "load_environment", "plot.", "CubeMap.save_for",
+    "Frame.save", "save_animation", "CubeMap.save", "cluster.",
 )  # fmt: skip
 
 
@@ -334,6 +343,8 @@ def object_of(owner, member, renderer):
         return views()[owner]
     if owner == "Renderer":
         return renderer
+    if owner == "Pool":
+        return absurd.pool()
     if owner == "Frame":
         return renderer.render(cc.Scene(), cc.PerspectiveCamera(), (2, 2))
     if owner == "Camera" and member != "view":  # which cameras of matrices lack

@@ -46,8 +46,8 @@ PYTHON_ORDER = (
     "_late",
     "_warnings",
     "_progress",  # a bar in the terminal
-    "_futures",  # calls of a renderer that are drawn later
     "_processes",  # other Python processes that work for this one
+    "_futures",  # calls of a renderer that are drawn later
     "data",  # the packaged files and their list
     "_nodes",  # which nodes are shown
     "_rotations",  # matrices of quaternions

@@ -527,7 +527,10 @@ shells = pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 COMPLETED = {
     "commands": (
         ["cubecam", "c"],
-        {("plain", word) for word in ("convert", "capture", "compare", "conventions")},
+        {
+            ("plain", word)
+            for word in ("convert", "capture", "capture-many", "compare", "conventions")
+        },
     ),
     "options": (["cubecam", "info", "--j"], {("plain", "--json")}),
     "choices": (

@@ -17,6 +17,8 @@ import cubecam as cc
 from cubecam import navigation, plot
 from cubecam.io import movie
 from cubecam.viewer.cube_view import CubeView
+from tests.absurd import pool, pool_functions
+from tests.gl import pool_scenes
 
 STUB = pathlib.Path(cc.__file__).with_name("_core.pyi")
 MESSAGE = (
@@ -110,6 +112,10 @@ OF_FUNCTIONS: dict[tuple[str, str], Any] = {
     ("Renderer.iter_captures", "positions"): [[1.0, 2.0, 3.0]],
     ("Renderer.capture_many", "rotations"): [[1.0, 0.0, 0.0, 0.0]],
     ("Renderer.iter_captures", "rotations"): [[1.0, 0.0, 0.0, 0.0]],
+    ("Pool.capture_many", "positions"): [[1.0, 2.0, 3.0]],
+    ("Pool.iter_captures", "positions"): [[1.0, 2.0, 3.0]],
+    ("Pool.capture_many", "rotations"): [[1.0, 0.0, 0.0, 0.0]],
+    ("Pool.iter_captures", "rotations"): [[1.0, 0.0, 0.0, 0.0]],
     ("CubeMap.set_face", "pixels"): CUBE[0],
     ("MorphTarget", "tangents"): [[1.0, 0.0, 0.0]] * 3,
     ("Texture", "scale"): [1.0, 2.0],
@@ -129,6 +135,7 @@ OBJECTS: dict[str, Any] = {
     "Camera": lambda: cc.Camera(view=np.eye(4), projection=np.eye(4)),
     "ShaderMaterial": lambda: cc.ShaderMaterial(DECLARED),
     "ImageEffect": lambda: cc.ImageEffect(EFFECT),
+    "Pool": pool,
     "CubeView": lambda: CubeView(cc.CubeMap(CUBE), size=(64, 64)),
 }
 
@@ -150,6 +157,11 @@ NEEDED: dict[str, Any] = {
         f"Renderer.{many}": lambda: {"positions": [(0, 0, 0)]}
         for many in ("capture_many", "iter_captures")
     },
+    **{
+        f"Pool.{many}": lambda: {"scene": cc.Scene(), "positions": [(0, 0, 0)], "size": 2}
+        for many in ("capture_many", "iter_captures")
+    },
+    "Pool.capture_scenes": lambda: {"make_scene": pool_scenes.numbered, "count": 1, "size": 2},
     "capture_scenes": lambda: {"make_scene": lambda number: cc.Scene(), "count": 1, "size": 2},
     "Scene.add": lambda: {"mesh": morphing_mesh()},
     "Skin": lambda: {"joints": [cc.Scene().add()]},
@@ -209,6 +221,7 @@ def of_python():
     """Yield the same for functions written in Python."""
     functions = {name: getattr(cc, name) for name in cc.__all__}
     functions |= {f"plot.{name}": vars(plot)[name] for name in plot.__all__}
+    functions |= pool_functions()
     functions |= {"navigation.look": navigation.look, "CubeView.look_at": CubeView.look_at}
     for name, function in functions.items():
         if not inspect.isfunction(function):

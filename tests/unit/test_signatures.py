@@ -19,6 +19,7 @@ from cubecam import cluster, demo, explore, navigation, plot, truth
 from cubecam._calls import checked_call
 from cubecam.io import cubemap_save, cubemaps, images, meshes
 from cubecam.pictures import results
+from tests.absurd import pool_functions
 
 CAMERAS = ("PerspectiveCamera", "OrthographicCamera")
 MODULES = (navigation, results, demo, images, cubemaps, meshes, cubemap_save)
@@ -34,6 +35,11 @@ BY_POSITION = {
     "Renderer.iter_captures": ["scene", "positions", "size"],
     "Renderer.render_many": ["scene", "cameras", "size"],
     "capture_scenes": ["make_scene", "count"],
+    "Pool": ["workers"],
+    "Pool.capture_many": ["scene", "positions", "size"],
+    "Pool.iter_captures": ["scene", "positions", "size"],
+    "Pool.render_many": ["scene", "cameras", "size"],
+    "Pool.capture_scenes": ["make_scene", "count"],
     "Renderer.render_async": ["scene", "camera", "size"],
     "Renderer.capture_async": ["scene", "position", "size"],
     "Scene.add": ["mesh", "material"],
@@ -235,6 +241,7 @@ def of_python():
     functions["explore.reflection"] = explore.reflection
     functions["explore.layout"] = explore.layout
     functions["DemoScene.turn"] = demo.DemoScene.turn
+    functions |= pool_functions()
     for name, function in functions.items():
         if name.rpartition(".")[2].startswith("_"):
             continue

@@ -134,7 +134,7 @@ def capture_many(
 
     What was ended, by Ctrl-C or by a kill, goes on where it was when the same command is given again.
 
-    Example: cubecam capture-many scene.py -o probes.zarr --outputs distance --workers 4
+    Example: cubecam capture-many scene.py -o probes.zarr --workers 4
     """
     if workers is not None and scheduler is not None:
         raise click.BadParameter("expected without --scheduler", param_hint="--workers")

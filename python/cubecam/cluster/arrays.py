@@ -78,7 +78,7 @@ def capture_array(
     >>> import cubecam as cc
     >>> from cubecam import cluster
     >>> scene = cc.Scene()
-    >>> ball = scene.add(cc.Mesh.sphere(1), cc.BasicMaterial())
+    >>> box = scene.add(cc.Mesh.box(2), cc.BasicMaterial())
     >>> places = [(x, 0, 0) for x in range(2, 12)]
     >>> distance = cluster.capture_array(scene, places, 16, output="distance", chunk=5)
     >>> distance.shape, distance.chunks[0]

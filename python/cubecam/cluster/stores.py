@@ -139,8 +139,10 @@ def capture_to_zarr(
     >>> ball = scene.add(cc.Mesh.sphere(1), cc.BasicMaterial(color="red"))
     >>> places = [(x, 0, 3) for x in range(10)]
     >>> batch = cluster.capture_to_zarr(scene, places, "ball.zarr", 8, outputs=["distance"], chunk=4)
-    >>> batch, float(batch[0].distance.min().round(1))
-    (CubeMapBatch(10, size=8, channels=4, dtype=float32, outputs=('distance',), encoding='linear'), 2.0)
+    >>> batch
+    CubeMapBatch(10, size=8, channels=4, dtype=float32, outputs=('distance',), encoding='linear')
+    >>> bool(batch[0].distance.min() < 2.2)
+    True
     """
     need_zarr("capture_to_zarr")
     if sum(way is not None for way in (client, pool, workers)) > 1:
@@ -225,6 +227,8 @@ def _check_client(client: Any) -> None:
         ) from error
     if not isinstance(client, Client):
         raise TypeError(f"client: expected a Client of distributed or None, got {text_of(client)}")
+    if client.asynchronous:
+        raise ValueError("client: expected one with asynchronous=False, got one for coroutines")
 
 
 # ----- the store

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
-
 from .._warnings import UsersLine
 from .memory import Arrays, Layout
 from .payload import Payload
@@ -18,7 +15,6 @@ class Piece:
 
     def __init__(self, number: int, first: int, count: int) -> None:
         self.number, self.first, self.count = number, first, count
-        self.endings: list[str] = []  # of processes that drew it
 
     def __repr__(self) -> str:
         last = self.first + self.count - 1
@@ -41,8 +37,6 @@ class Call:
     window : int, optional
         The number of pieces for which the arrays have room; the caller is done with one before another takes its place.
         None: all.
-    in_order : bool
-        Whether pictures depend on those before them: then the pieces are drawn one after the other.
     title : str
         What the pictures are called: "captures", "frames", "scenes".
     """
@@ -57,10 +51,9 @@ class Call:
         *,
         title: str,
         window: int | None = None,
-        in_order: bool = False,
     ) -> None:
         self.work, self.payload, self.layout = work, payload, layout
-        self.count, self.step, self.title, self.in_order = count, step, title, in_order
+        self.count, self.step, self.title = count, step, title
         self.pieces = -(-count // step)
         self.window = self.pieces if window is None else min(window, self.pieces)
         self.arrays: Arrays = []
@@ -84,7 +77,3 @@ class Call:
         """Give the part of the arrays that a piece fills."""
         row = self.row(piece)
         return [array[row : row + piece.count] for array in self.arrays]
-
-
-Pieces = Iterator[Piece]
-Warned = list[tuple[type[Warning], Any]]

@@ -15,7 +15,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from .._core import ContextError, Error
-from .._processes import Process, ending_of
+from .._processes import Process, ending_of, leave_signals_to_others
 from .._warnings import warn_at
 from .calls import Call, Piece
 from .memory import Rows
@@ -26,6 +26,8 @@ __all__ = ["CLOSED", "Crew"]
 
 CLOSED = "the pool is closed: expected an open Pool"
 _FORKED = "this pool belongs to the parent process: expected a Pool made in this one, or a call before the fork"
+
+_WORKER = "cubecam.pool.worker:serve"
 
 #: How often a piece is given to another process after the one that drew it has died.
 _TRIES = 3
@@ -42,18 +44,12 @@ class _Running:
         self.taken = 0  # pieces that the caller is done with
         self.under_way = 0
         self.done: dict[int, list[tuple[type[Warning], str]]] = {}  # warnings of pieces
-        self.error: BaseException | None = None
+        self.errors: dict[int, BaseException] = {}
         self.ended = False
-        self.seat: _Seat | None = None  # that draws all of it, if its order counts
 
-    def has_piece(self, seat: _Seat) -> bool:
-        if (
-            self.ended
-            or self.error
-            or self.next >= min(self.call.pieces, self.taken + self.call.window)
-        ):
-            return False
-        return not self.call.in_order or (not self.under_way and self.seat in (None, seat))
+    def has_piece(self) -> bool:
+        most = min(self.call.pieces, self.taken + self.call.window)
+        return self.next < most and not self.ended and not self.errors
 
 
 class Crew:
@@ -110,8 +106,8 @@ class Crew:
         for number in range(running.call.pieces):
             with self.changed:
                 while number not in running.done:
-                    if running.error is not None:
-                        raise running.error
+                    if number in running.errors:  # those before it are done
+                        raise running.errors[number]
                     self._check_open()
                     self.changed.wait()
                 caught = running.done.pop(number)
@@ -131,7 +127,7 @@ class Crew:
             running.rows.close()
             if running in self._calls:
                 self._calls.remove(running)
-            if running.call.payload.reusable and not running.call.in_order:
+            if running.call.payload.reusable:
                 self._kept = running.call.payload.token
             self.changed.notify_all()
             # What a caller of Ctrl-C gets back is all of the memory.
@@ -176,14 +172,13 @@ class Crew:
         """Say whether a call is not ended."""
         return any(each.number == number for each in self._calls)
 
-    def piece_for(self, seat: _Seat) -> tuple[_Running, Piece] | None:
+    def next_piece(self) -> tuple[_Running, Piece] | None:
         """Give out a piece."""
         for running in self._calls:
-            if running.has_piece(seat):
+            if running.has_piece():
                 piece = running.call.piece(running.next)
                 running.next += 1
                 running.under_way += 1
-                running.seat = seat
                 self._calls.remove(running)  # calls of several threads take turns
                 self._calls.append(running)
                 return running, piece
@@ -199,9 +194,7 @@ class _Seat:
         self.draws: _Running | None = None
         self._loaded: set[str] = set()  # tokens of payloads
         self._opened: set[int] = set()  # numbers of calls
-        self._at: tuple[int, int, str] | None = (
-            None  # call, next piece, token of one whose order counts
-        )
+        self._ready = False  # whether the process has begun to read
         self.thread = threading.Thread(target=self._work, daemon=True, name="cubecam pool")
         self._start()
 
@@ -213,7 +206,7 @@ class _Seat:
     def _start(self) -> None:
         crew = self._crew
         process = Process(
-            "cubecam.pool.worker:serve",
+            _WORKER,
             crew.environment,
             owner="Pool",
             instead="give it an executor, or use a Renderer",
@@ -221,11 +214,12 @@ class _Seat:
         process.channel.send(pickle.dumps(crew.options, protocol=5))
         with crew.changed:
             self.process = process
-            self._loaded, self._opened, self._at = set(), set(), None
+            self._loaded, self._opened, self._ready = set(), set(), False
             if crew.closed is not None:
                 process.kill()
 
     def _work(self) -> None:
+        leave_signals_to_others()
         try:
             while (given := self._next()) is not None:
                 running, piece = given
@@ -256,9 +250,9 @@ class _Seat:
                 while True:
                     if crew.closed is not None:
                         return None
-                    old = [each for each in self._loaded if not self._needs(each)]
+                    old = [each for each in self._loaded if not crew.needs(each)]
                     ended = [each for each in self._opened if not crew.lives(each)]
-                    given = crew.piece_for(self)
+                    given = crew.next_piece()
                     if given is not None or old or ended:
                         break
                     crew.changed.wait()
@@ -273,58 +267,42 @@ class _Seat:
             if given is not None:
                 return given
 
-    def _needs(self, token: str) -> bool:
-        if self._at is not None and token == self._at[2]:
-            return self._crew.lives(self._at[0])
-        return self._crew.needs(token)
-
     def _send(self, *message: Any, descriptors: tuple[int, ...] = ()) -> None:
         if self.process is not None:
             self.process.channel.send(pickle.dumps(message, protocol=5), descriptors)
 
     def _drawn(self, running: _Running, piece: Piece) -> Answer | None:
         """Let the process draw a piece; None if the call has ended meanwhile."""
+        endings: tuple[list[str], list[str]] = ([], [])  # before it could draw, and while it drew
         while not running.ended:
+            if self.process is not None and not self.process.lives:  # since the last piece
+                self.end()
             if self.process is None:
                 self._start()
             assert self.process is not None
             if not self._order(running, piece):
                 return None
+            if not self._ready:
+                self._ready = self.process.channel.receive() is not None
             answer = self.process.channel.receive()
             if answer is not None:
                 found: Answer = pickle.loads(answer[0])
                 return found
             process, self.process = self.process, None
-            piece.endings.append(ending_of(process.status()))
+            endings[self._ready].append(ending_of(process.status()))
             process.channel.close()
             if self._crew.closed is not None or running.ended:
                 return None
-            if len(piece.endings) == _TRIES:
-                raise Error(
-                    f"{running.call.title} {piece!r}: expected a worker process to draw them, got the "
-                    f"end of {_TRIES} that tried ({', '.join(piece.endings)}); SIGKILL may come from "
-                    "the system where memory is short, SIGSEGV from the driver"
-                )
+            _check_tries(running.call.title, piece, *endings)
         return None
 
     def _order(self, running: _Running, piece: Piece) -> bool:
         """Tell the process all that it needs for a piece, and to draw it; False if the call has ended."""
-        call, payload, skip = running.call, running.call.payload, 0
-        work = call.work.part(piece.first, piece.count)
-        token = payload.token
-        if call.in_order:
-            if self._at is not None and self._at[:2] == (running.number, piece.number):
-                token = self._at[2]
-            else:  # from the beginning, with objects that nobody has drawn
-                payload, skip = payload.again(), piece.first
-                token = payload.token
-                work = call.work.part(0, piece.first + piece.count)
-            self._at = (running.number, piece.number + 1, token)
-        if token not in self._loaded:
-            self._load(payload)
+        call = running.call
+        if call.payload.token not in self._loaded:
+            self._load(call.payload)
         with self._crew.changed:  # so that the descriptor is not closed meanwhile
             if running.ended:
-                self._at = None
                 return False
             if running.number not in self._opened:
                 self._opened.add(running.number)
@@ -332,7 +310,9 @@ class _Seat:
                 self._send(
                     "open", running.number, rows.layout, rows.count, descriptors=(rows.descriptor,)
                 )
-        self._send("draw", running.number, token, work, skip, call.row(piece), piece.count)
+        work = call.work.part(piece.first, piece.count)
+        row = call.row(piece)
+        self._send("draw", running.number, call.payload.token, work, row, piece.count)
         return True
 
     def _load(self, payload: Payload) -> None:
@@ -355,10 +335,25 @@ class _Seat:
             self.draws = None
             running.under_way -= 1
             if error is not None:
-                running.error = running.error or error
+                running.errors[piece.number] = error
             elif answer is not None:
                 running.done[piece.number] = answer[1]
             self._crew.changed.notify_all()
+
+
+def _check_tries(title: str, piece: Piece, began: list[str], drew: list[str]) -> None:
+    """Give up a piece that has ended several processes, and processes that end before they draw."""
+    if len(drew) == _TRIES:
+        raise Error(
+            f"{title} {piece!r}: expected a worker process to draw them, got the end of {_TRIES} that "
+            f"tried ({', '.join(drew)}); SIGKILL may come from the system where memory is short, "
+            "SIGSEGV from the driver"
+        )
+    if len(began) == _TRIES:
+        raise Error(
+            f"Pool: expected worker processes to start, got the end of {_TRIES} before they could draw "
+            f"({', '.join(began)}); what they wrote to the error stream says why"
+        )
 
 
 _crews: weakref.WeakSet[Crew] = weakref.WeakSet()

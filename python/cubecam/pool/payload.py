@@ -11,16 +11,15 @@ import itertools
 import multiprocessing.spawn
 import os
 import pickle
-import sys
 import weakref
 from collections.abc import Callable
 from pathlib import Path
 from typing import IO, Any
 
 from .._checks import text_of
-from .._core import Scene, _newest_revision
+from .._core import Scene
 
-__all__ = ["Payload", "PayloadKeeper", "check_outside_import", "load", "packed_function"]
+__all__ = ["Payload", "PayloadKeeper", "check_outside_import", "load", "packed", "packed_function"]
 
 _numbers = itertools.count()
 
@@ -35,41 +34,31 @@ class Payload:
         self.data, self.reusable = data, reusable
         self.token = f"{os.getpid()}-{next(_numbers)}"
 
-    def again(self) -> Payload:
-        """Give the same bytes with another name, so that they are loaded again."""
-        return Payload(self.data)
-
 
 class PayloadKeeper:
-    """Keeps the last payload of objects of the core: while nothing has changed, it is given again."""
+    """Keeps the payload of the last scene: as long as the scene shows the same, it is given again."""
 
     def __init__(self) -> None:
-        self._objects: list[weakref.ref[Any]] = []
-        self._shape: list[int] = []  # lengths of the lists
-        self._revision = -1
+        self._scene: weakref.ref[Scene] | None = None
+        self._revision = 0
         self._payload: Payload | None = None
 
-    def packed(self, scene: Scene, *others: list[Any]) -> Payload:
-        """Give the payload of a scene with lists of other objects."""
-        objects = [scene, *(each for list_ in others for each in list_)]
-        shape = [len(list_) for list_ in others]
-        revision = _newest_revision()
-        if (
-            self._payload is not None
-            and self._revision == revision
-            and self._shape == shape
-            and len(objects) == len(self._objects)
-            and all(ref() is each for ref, each in zip(self._objects, objects, strict=True))
-        ):
-            return self._payload
-        self._payload = Payload(_dumped((scene, *others), pickle.dump), reusable=True)
-        self._objects = [weakref.ref(each) for each in objects]
-        self._revision, self._shape = revision, shape
+    def packed(self, scene: Scene, revision: int) -> Payload:
+        """Give the payload of a scene, of which a batch told the revision."""
+        known = self._scene is not None and self._scene() is scene and self._revision == revision
+        if self._payload is None or not known:
+            self._payload = Payload(_dumped(scene, pickle.dump), reusable=True)
+            self._scene, self._revision = weakref.ref(scene), revision
         return self._payload
 
     def forget(self) -> None:
         """Keep nothing."""
         self._payload = None
+
+
+def packed(*things: Any) -> Payload:
+    """Give the payload of objects that travel together."""
+    return Payload(_dumped(things, pickle.dump))
 
 
 def packed_function(function: Callable[..., Any], name: str) -> Payload:
@@ -140,8 +129,6 @@ class _Unpickler(pickle.Unpickler):
 
 def _script() -> dict[str, str]:
     """Say how the user's script is found: by its path or as a module; empty for notebooks and sessions."""
-    if sys.modules["__main__"] is sys.modules.get("__mp_main__"):
-        return {}
     found = multiprocessing.spawn.get_preparation_data("cubecam")
     names = ("init_main_from_name", "init_main_from_path")
     script = {name: str(found[name]) for name in names if found.get(name)}

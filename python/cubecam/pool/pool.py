@@ -35,7 +35,7 @@ from ..typing import DepthFormat, DepthOrder, Encode, Format, Tonemap
 from .calls import Call
 from .crew import CLOSED, Crew
 from .memory import Arrays
-from .payload import PayloadKeeper, check_outside_import, packed_function
+from .payload import PayloadKeeper, check_outside_import, packed, packed_function
 from .remote import Remote
 from .work import Captures, Frames, Scenes, cube_layout, frame_layout
 
@@ -48,6 +48,9 @@ __all__ = ["Pool"]
 
 #: Into how many pieces a call is cut for each worker, if it is long enough.
 _PIECES = 8
+
+#: A larger number is a mistake: each worker is a process with a renderer.
+_MOST_WORKERS = 1024
 
 #: The most scenes or frames of a piece.
 _MOST = 64
@@ -62,9 +65,8 @@ class Pool:
     a pool in a ``with`` block, or call `close`. Any thread may use it, and several calls share the processes.
 
     What a call gives is what a new `Renderer` gives for the scene as it is then, whatever the pool has drawn before:
-    probes with ``update="once"`` or a number show the scene of this call, those with "manual" are never drawn. The
-    bytes depend neither on the number of workers nor on who draws what. If a probe has ``faces_per_frame`` below 6,
-    pictures depend on those before them, and one worker alone draws the whole call.
+    probes with ``update="once"``, a number, or few ``faces_per_frame`` show the scene of this call, and those with
+    "manual" are never drawn. The bytes depend neither on the number of workers nor on who draws what.
 
     Parameters
     ----------
@@ -77,12 +79,12 @@ class Pool:
         dead workers are the executor's own matter. It stays open when the pool is closed.
     device, layered, cache_bytes, debug, trust_shaders
         As for `Renderer`, for each worker. This process has such a renderer, too, which checks arguments and draws
-        nothing.
+        nothing; a software one if an `executor` draws and this machine lacks the device.
 
     Raises
     ------
     TypeError, ValueError, ContextError
-        As `Renderer` raises; for a number of workers that is not an int of at least 1, or something else as executor.
+        As `Renderer` raises; for a number of workers that is not an int from 1 to 1024, or something else as executor.
     RuntimeError
         In a program without an interpreter that could be started; in a script that makes a pool outside of
         ``if __name__ == "__main__":`` and whose function `capture_scenes` was given.
@@ -114,7 +116,8 @@ class Pool:
         trust_shaders: bool = False,
     ) -> None:
         check_outside_import()
-        count = None if workers is None else whole_number(workers, "workers", 1)
+        count = None if workers is None else whole_number(workers, "workers", 1, _MOST_WORKERS)
+        self._workers = count or _cores()
         if executor is not None and not hasattr(executor, "submit"):
             raise TypeError(
                 f"executor: expected an Executor of concurrent.futures or None, got {text_of(executor)}"
@@ -126,14 +129,14 @@ class Pool:
             "debug": debug,
             "trust_shaders": trust_shaders,
         }
-        self._renderer: Renderer | None = Renderer(**options)
+        self._renderer: Renderer | None = None
+        self._renderer = _checking(options, executor)
         self._kept = PayloadKeeper()
         self._crew: Crew | Remote
         if executor is None:
-            self._workers = count or _cores()
             self._crew = Crew(self._workers, options, _environment(self._workers))
         else:
-            self._workers = count or getattr(executor, "_max_workers", None) or _cores()
+            self._workers = count or getattr(executor, "_max_workers", None) or self._workers
             self._crew = Remote(executor, options, 2 * self._workers)
         self._finish = weakref.finalize(self, self._crew.close)
 
@@ -142,6 +145,7 @@ class Pool:
         """int: the number of processes, or what an executor is taken to have."""
         return self._workers
 
+    @checked_call
     def close(self) -> None:
         """End the processes; calls under way raise ContextError. Nothing if the pool is closed."""
         self._finish()
@@ -160,6 +164,9 @@ class Pool:
         trace: TracebackType | None,
     ) -> None:
         self.close()
+
+    def __reduce__(self) -> tuple[object, ...]:
+        raise TypeError("cannot pickle a cubecam.Pool")
 
     def __repr__(self) -> str:
         return f"Pool(workers={self._workers}{', closed' * (self._renderer is None)})"
@@ -358,6 +365,8 @@ class Pool:
         }
         passes = _listed(effects)
         batch = _RenderBatch(self._own(), scene, seen_by, size, effects=passes, **options)
+        # What may hold parts of the scene travels with it.
+        alone = not passes and not any(map(_follows, seen_by))
         whole, color, kinds = batch.shape()
         layout = frame_layout(whole, color, kinds)
         count = len(seen_by)
@@ -367,13 +376,12 @@ class Pool:
             "cameras",
         )
         call = Call(
-            Frames(0, count, whole, options),
-            self._kept.packed(scene, seen_by, passes),
+            Frames(0, count, seen_by if alone else None, whole, options),
+            self._kept.packed(scene, batch.revision) if alone else packed(scene, seen_by, passes),
             layout,
             count,
-            count if batch.in_order else self._step(count, 1),
+            self._step(count, 1),
             title="frames",
-            in_order=batch.in_order,
         )
         self._draw(call, progress)
         arrays = list(call.arrays)
@@ -449,7 +457,8 @@ class Pool:
         own = self._own()
         payload = packed_function(make_scene, "make_scene")
         scene = scene_of(make_scene, 0) if number_of_scenes else Scene()
-        batch = Captures(places[:1], None, options).batch(own, scene, ())
+        at = places[:1]
+        batch = _CaptureBatch(own, scene, at, None, exclude=(), **options)
         check_batch_room(batch, number_of_scenes)
         call = Call(
             Scenes(0, places, options, batch.outputs, batch.encoding),
@@ -487,7 +496,6 @@ class Pool:
         count, most = len(batch), batch.most_cubes
         if in_memory:
             step, window = self._step(count, most), None
-            step = max(count, 1) if batch.in_order else step
         else:
             step = min(most, self._step(count, 1))
             window = 2 * self._workers + 1
@@ -495,14 +503,15 @@ class Pool:
         places = floats_of(positions)
         assert places is not None
         call = Call(
-            Captures(places, floats_of(rotations), options),
-            self._kept.packed(scene, left_out),
+            Captures(
+                places, floats_of(rotations), frozenset(node.id for node in left_out), options
+            ),
+            self._kept.packed(scene, batch.revision),
             cube_layout(batch),
             count,
             step,
             title="captures",
             window=window,
-            in_order=batch.in_order,
         )
         return call, batch
 
@@ -538,6 +547,23 @@ def _cubes(batch: _CaptureBatch, arrays: Arrays) -> CubeMapBatch:
     return CubeMapBatch(
         arrays[0], outputs=dict(zip(names, arrays[1:], strict=True)), encoding=batch.encoding
     )
+
+
+def _checking(options: dict[str, Any], executor: Executor | None) -> Renderer:
+    """Make the renderer that checks arguments."""
+    try:
+        return Renderer(**options)
+    except ContextError:
+        if executor is None:
+            raise
+        # Where an executor draws there may be a GPU, and here none.
+        return Renderer(**{**options, "device": "software"})
+
+
+def _follows(camera: Camera | StereoCamera) -> bool:
+    """Find whether a node moves a camera."""
+    eyes = [camera.left, camera.right] if isinstance(camera, StereoCamera) else [camera]
+    return any(getattr(eye, "parent", None) is not None for eye in eyes)
 
 
 def _listed(values: Any) -> Any:

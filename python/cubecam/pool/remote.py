@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pickle
 import threading
-from collections import OrderedDict, deque
+from collections import deque
 from collections.abc import Iterator
 from concurrent.futures import Executor, Future
 from contextlib import contextmanager
@@ -49,12 +49,12 @@ class Remote:
         self, call: Call, waiting: deque[tuple[Piece, Future[Arrays | None]]]
     ) -> Iterator[Piece]:
         data = bytes(call.payload.data)
-        ahead = 1 if call.in_order else min(self._at_once, call.window)
+        ahead = min(self._at_once, call.window)
         submitted = 0
         for _ in range(call.pieces):
             while submitted < call.pieces and len(waiting) < ahead:
                 # The first ones bring the scene; a worker that lacks it later asks for it.
-                given = data if submitted < self._at_once or call.in_order else None
+                given = data if submitted < self._at_once else None
                 piece = call.piece(submitted)
                 waiting.append((piece, self._submit(call, piece, given)))
                 submitted += 1
@@ -73,15 +73,12 @@ class Remote:
             yield piece
 
     def _submit(self, call: Call, piece: Piece, data: bytes | None) -> Future[Arrays | None]:
-        first = 0 if call.in_order else piece.first
-        work = call.work.part(first, piece.first + piece.count - first)
         return self._executor.submit(
             draw_piece,
             self._options,
-            None if call.in_order else call.payload.token,
+            call.payload.token,
             data,
-            work,
-            piece.first - first,
+            call.work.part(piece.first, piece.count),
             list(call.layout),
             piece.count,
         )
@@ -99,34 +96,22 @@ _here = threading.local()
 
 
 def draw_piece(
-    options: bytes,
-    token: str | None,
-    data: bytes | None,
-    work: Work,
-    skip: int,
-    layout: Layout,
-    count: int,
+    options: bytes, token: str, data: bytes | None, work: Work, layout: Layout, count: int
 ) -> Arrays | None:
     """Draw a piece in a worker of an executor; None if it lacks the scene, and no `data` brings it.
 
-    Each thread that draws has a renderer of its own. `token` None: the scene is loaded anew, and not kept.
+    Each thread that draws has a renderer of its own.
     """
     desk = _desk(options)
-    name = token or ""
-    if name not in desk.things or token is None:
+    if token not in desk.things:
         if data is None:
             return None
-        desk.load(name, data)
-    things: OrderedDict[str, Any] = desk.things
-    things.move_to_end(name)
-    while len(things) > _MOST_THINGS:
-        things.popitem(last=False)
+        desk.load(token, data)
+    desk.things.move_to_end(token)
+    while len(desk.things) > _MOST_THINGS:
+        desk.things.popitem(last=False)
     arrays: Arrays = [np.empty((count, *shape), dtype) for shape, dtype in layout]
-    try:
-        desk.draw(name, work, skip, arrays)
-    finally:
-        if token is None:
-            del things[name]
+    desk.draw(token, work, arrays)
     return arrays
 
 

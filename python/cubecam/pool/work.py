@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pickle
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
@@ -25,16 +24,17 @@ class Work(Protocol):
     def part(self, first: int, count: int) -> Work:
         """Give the work of some pictures alone."""
 
-    def draw(self, renderer: Renderer, things: Any, skip: int, arrays: Arrays) -> None:
-        """Draw into arrays with a row for each picture but the first `skip`, which are drawn for their effects."""
+    def draw(self, renderer: Renderer, things: Any, arrays: Arrays) -> None:
+        """Draw into arrays with a row for each picture."""
 
 
 @dataclass(frozen=True)
 class Captures:
-    """Cubemaps of a scene; `things` are the scene and the nodes that are left out."""
+    """Cubemaps of a scene, which are `things`; nodes with the ids `exclude` are left out."""
 
     positions: npt.NDArray[np.float64]
     rotations: npt.NDArray[np.float64] | None
+    exclude: frozenset[int]
     options: Options
 
     def part(self, first: int, count: int) -> Captures:
@@ -43,51 +43,48 @@ class Captures:
         turned = None if self.rotations is None else self.rotations[some]
         return replace(self, positions=self.positions[some], rotations=turned)
 
-    def batch(self, renderer: Renderer, scene: Scene, exclude: Sequence[Any]) -> _CaptureBatch:
-        """Take the scene's snapshot, and check all arguments."""
-        return _CaptureBatch(
-            renderer, scene, self.positions, self.rotations, exclude=exclude, **self.options
-        )
-
-    def draw(self, renderer: Renderer, things: Any, skip: int, arrays: Arrays) -> None:
+    def draw(self, renderer: Renderer, things: Any, arrays: Arrays) -> None:
         """Draw the places one part after the other."""
-        batch = self.batch(renderer, *things)
-        unwanted: Arrays = []
-        if skip:
-            faces, outputs = batch.allocate(min(batch.most_cubes, skip))
-            unwanted = [faces, *outputs]
-        for first in range(0, skip, batch.most_cubes):
-            _draw(batch, first, [array[: skip - first] for array in unwanted])
-        for first in range(skip, len(batch), batch.most_cubes):
-            rows = slice(first - skip, first - skip + batch.most_cubes)
-            _draw(batch, first, [array[rows] for array in arrays])
+        scene: Scene = things
+        left_out = [node for node in scene.nodes if node.id in self.exclude] if self.exclude else []
+        batch = _CaptureBatch(
+            renderer, scene, self.positions, self.rotations, exclude=left_out, **self.options
+        )
+        for first in range(0, len(batch), batch.most_cubes):
+            _draw(batch, first, [array[first : first + batch.most_cubes] for array in arrays])
 
 
 @dataclass(frozen=True)
 class Frames:
-    """Frames of a scene; `things` are the scene, all cameras of the call, and the effects."""
+    """Frames of a scene.
+
+    `cameras` None: `things` are the scene, the cameras of the whole call, and the effects. Else they are the scene.
+    """
 
     first: int
     count: int
-    size: Any
+    cameras: list[Any] | None
+    size: tuple[int, int]
     options: Options
 
     def part(self, first: int, count: int) -> Frames:
         """Give the work of some cameras alone."""
-        return replace(self, first=self.first + first, count=count)
+        some = None if self.cameras is None else self.cameras[first : first + count]
+        return replace(self, first=self.first + first, count=count, cameras=some)
 
-    def draw(self, renderer: Renderer, things: Any, skip: int, arrays: Arrays) -> None:
+    def draw(self, renderer: Renderer, things: Any, arrays: Arrays) -> None:
         """Draw the frames one after the other."""
-        scene, cameras, effects = things
-        some = cameras[self.first : self.first + self.count]
-        batch = _RenderBatch(renderer, scene, some, self.size, effects=effects, **self.options)
+        if self.cameras is None:
+            scene, cameras, effects = things
+            cameras = cameras[self.first : self.first + self.count]
+        else:
+            scene, cameras, effects = things, self.cameras, ()
+        batch = _RenderBatch(renderer, scene, cameras, self.size, effects=effects, **self.options)
         for number in range(len(batch)):
             frame = batch.draw(number)
-            if number < skip:
-                continue
             pictures = [] if frame.color is None else [frame.color]
             for array, values in zip(arrays, [*pictures, *frame.outputs.values()], strict=True):
-                array[number - skip] = values
+                array[number] = values
 
 
 @dataclass(frozen=True)
@@ -108,19 +105,23 @@ class Scenes:
         some = self.positions[first : first + count]
         return replace(self, first=self.first + first, positions=some)
 
-    def draw(self, renderer: Renderer, things: Any, skip: int, arrays: Arrays) -> None:
+    def draw(self, renderer: Renderer, things: Any, arrays: Arrays) -> None:
         """Make and draw the scenes one after the other."""
         for row in range(len(self.positions)):
             number = self.first + row
             scene = scene_of(things, number)
-            work = Captures(self.positions[row : row + 1], None, self.options)
-            batch = work.batch(renderer, scene, ())
+            batch = self.batch(renderer, scene, row)
             check_same_kind(batch, self.kinds, self.encoding, number)
             if batch.keeps_pictures:
                 # The function may give a scene again that was drawn before, in whatever process.
-                batch = work.batch(renderer, _new(scene), ())
+                batch = self.batch(renderer, _new(scene), row)
             _draw(batch, 0, [array[row : row + 1] for array in arrays])
             del scene, batch  # before the next scene is made
+
+    def batch(self, renderer: Renderer, scene: Scene, row: int) -> _CaptureBatch:
+        """Take a scene's snapshot."""
+        at = self.positions[row : row + 1]
+        return _CaptureBatch(renderer, scene, at, None, exclude=(), **self.options)
 
 
 def cube_layout(batch: _CaptureBatch) -> Layout:

@@ -105,12 +105,12 @@ class Desk:
         except BaseException as error:
             self.things[token] = _Unloaded(error)
 
-    def draw(self, token: str, work: Work, skip: int, arrays: Arrays) -> None:
+    def draw(self, token: str, work: Work, arrays: Arrays) -> None:
         """Draw a piece."""
         things = self.things[token]
         if isinstance(things, _Unloaded):
             raise things.error
-        work.draw(self.renderer, things, skip, arrays)
+        work.draw(self.renderer, things, arrays)
 
 
 class _Unloaded:
@@ -122,6 +122,7 @@ def serve(channel: Channel) -> None:
     """Be a worker, until the channel ends: then the process ends at once, whatever it draws."""
     messages: queue.SimpleQueue[Message] = queue.SimpleQueue()
     threading.Thread(target=_read, args=(channel, messages), daemon=True).start()
+    channel.send(b"ready")
     options, _ = messages.get()
     desk = Desk(pickle.loads(options))
     memory: dict[int, Arrays] = {}
@@ -140,9 +141,9 @@ def serve(channel: Channel) -> None:
         elif kind == "close":
             memory.pop(rest[0], None)
         else:
-            call, token, work, skip, row, count = rest
+            call, token, work, row, count = rest
             arrays = [array[row : row + count] for array in memory[call]]
-            answer = answered(lambda: desk.draw(token, work, skip, arrays))  # noqa: B023
+            answer = answered(lambda: desk.draw(token, work, arrays))  # noqa: B023
             del arrays, work
             for stream in (sys.stdout, sys.stderr):  # the process may be killed later
                 with suppress(Exception):
