@@ -18,7 +18,9 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from benchmarks.peers import pool_cubecam
 from cubecam.pool import crew as crews
+from cubecam.pool import remote
 from tests.gl import pool_scenes
 from tests.gl.full_world import full_world
 from tests.helpers import DEVICE, run_python
@@ -253,12 +255,20 @@ def test_an_unchanged_scene_is_sent_once_to_each_worker(pool, renderer, monkeypa
     assert_same(batch, renderer.capture_many(scene, places(60), SIZE))
 
 
-def test_workers_forget_what_nobody_needs(pool):
-    for _ in range(3):
-        pool.capture_many(boxes(), places(60), SIZE)
-        pool.capture_scenes(pool_scenes.numbered, 20, size=SIZE)
-    seats = crew_of(pool)._seats
-    eventually(lambda: all(len(seat._loaded) <= 1 and not seat._opened for seat in seats))
+def test_workers_forget_what_nobody_needs(one_worker):
+    def memory():
+        [process] = crew_of(one_worker).pids
+        lines = Path(f"/proc/{process}/status").read_text().splitlines()
+        return sum(int(line.split()[1]) for line in lines if line.startswith("VmRSS")) / 1024
+
+    found = []
+    for number in range(6):
+        scene = cc.Scene()
+        image = cc.Image(np.full((2048, 2048, 4), number, np.uint8))  # 16 MiB
+        scene.add(cc.Mesh.plane(), cc.BasicMaterial(map=image))
+        one_worker.capture_many(scene, places(2), SIZE)
+        found.append(memory())
+    assert found[-1] - found[1] < 3 * 16  # four more would be 64, and again as much for the driver
 
 
 def test_a_result_is_shared_memory_and_goes_with_its_arrays(pool):
@@ -691,6 +701,23 @@ def executor(request):
         yield made
 
 
+class Forgets(concurrent.futures.ThreadPoolExecutor):
+    """Workers that are new to each piece."""
+
+    def submit(self, function, /, *arguments, **options):
+        def forgetting():
+            vars(remote._here).clear()
+            return function(*arguments, **options)
+
+        return super().submit(forgetting)
+
+
+def test_a_worker_of_an_executor_that_lacks_the_scene_gets_it(renderer):
+    with Forgets(1) as executor, cc.Pool(workers=1, executor=executor, device=DEVICE) as pool:
+        batch = pool.capture_scenes(pool_scenes.numbered, 24, size=2)  # eight pieces
+    assert_same(batch, cc.capture_scenes(pool_scenes.numbered, 24, size=2, renderer=renderer))
+
+
 def test_executors(executor, new_renderer):
     scene, cameras = boxes(), [cc.PerspectiveCamera(position=(0, 0, z)) for z in (3, 4, 5)]
     single = new_renderer().capture_many(scene, places(40), SIZE, outputs=["distance"])
@@ -709,3 +736,12 @@ def test_executors(executor, new_renderer):
     with pytest.raises(cc.ContextError, match="the pool is closed"):
         pool.capture_many(scene, places(4), SIZE)
     assert executor.submit(abs, -3).result(30) == 3  # it is the user's own
+
+
+def test_what_the_benchmark_draws():
+    one, two = pool_cubecam.One(captures=9), pool_cubecam.Workers(workers=2, captures=9)
+    assert one.digest() == two.digest()
+    assert two.run()["cpu"] > 0
+    assert two.killed(tries=2, seed=1)["wrong"] == 0
+    one.draws.close()
+    two.draws.close()

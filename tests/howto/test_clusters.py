@@ -276,6 +276,8 @@ class TestMillion:
 
     def test_what_the_page_says_of_its_numbers(self, measured):
         assert measured["boxes"]["write"] > measured["boxes"]["draw"]
+        rates = [int(row[-1]) for row in rows_below(self.NAME, "| a million |")]
+        assert f"write up to {max(rates) / 1000:.0f} GB a second" in text_of(self.NAME)
         for of in measured.values():
             assert of["rgba8"][1] < 0.5 * of["rgba16f"][1]
             assert of["id"][1] < 0.05 * of["distance"][1]
