@@ -2,6 +2,7 @@
 
 import concurrent.futures
 import gc
+import inspect
 import multiprocessing
 import os
 import pickle
@@ -745,3 +746,16 @@ def test_what_the_benchmark_draws():
     assert two.killed(tries=2, seed=1)["wrong"] == 0
     one.draws.close()
     two.draws.close()
+
+
+@pytest.mark.parametrize("name", ["capture_many", "iter_captures", "render_many", "capture_scenes"])
+def test_arguments_are_those_of_a_renderer(name):
+    own = inspect.signature(getattr(cc.Pool, name)).parameters
+    alone = cc.capture_scenes if name == "capture_scenes" else getattr(cc.Renderer, name)
+    wanted = {
+        key: value
+        for key, value in inspect.signature(alone).parameters.items()
+        if key != "renderer"
+    }
+    assert [*own] == ["self", *(key for key in wanted if key != "self")]
+    assert all(own[key].default == value.default for key, value in wanted.items() if key != "self")

@@ -40,6 +40,7 @@ def capture_array(
     eye: npt.ArrayLike | None = None,
     depth_format: DepthFormat = "depth_component32f",
     depth_order: DepthOrder = "nearest",
+    max_lod_error: float = 0.0,
     chunk: int = 64,
 ) -> dask.array.Array:
     """Give captures from many places as an array of Dask, of which nothing is drawn yet.
@@ -53,7 +54,9 @@ def capture_array(
 
     Parameters
     ----------
-    scene, positions, size, rotations, near, far, exclude, format, samples, eye, depth_format, depth_order
+    scene, positions, size, rotations, near, far, exclude, format, samples, eye
+        As in `Renderer.capture_many`.
+    depth_format, depth_order, max_lod_error
         As in `Renderer.capture_many`.
     output : str
         "color" for the faces, or the name of an output of `Renderer.capture`.
@@ -97,6 +100,7 @@ def capture_array(
         "eye": eye,
         "depth_format": depth_format,
         "depth_order": depth_order,
+        "max_lod_error": max_lod_error,
     }
     arrays = _arrays(plan_of(scene, positions, rotations, exclude, chunk, options))
     return arrays[output]
@@ -118,13 +122,16 @@ def capture_dataset(
     eye: npt.ArrayLike | None = None,
     depth_format: DepthFormat = "depth_component32f",
     depth_order: DepthOrder = "nearest",
+    max_lod_error: float = 0.0,
     chunk: int = 64,
 ) -> xarray.Dataset:
     """Give captures from many places as a dataset of xarray with arrays of Dask; see `capture_array`.
 
     Parameters
     ----------
-    scene, positions, size, outputs, rotations, near, far, exclude, format, samples, eye, depth_format, depth_order
+    scene, positions, size, outputs, rotations, near, far, exclude, format, samples, eye
+        As in `Renderer.capture_many`.
+    depth_format, depth_order, max_lod_error
         As in `Renderer.capture_many`.
     chunk : int
         As in `capture_array`.
@@ -162,6 +169,7 @@ def capture_dataset(
         "eye": eye,
         "depth_format": depth_format,
         "depth_order": depth_order,
+        "max_lod_error": max_lod_error,
     }
     plan = plan_of(scene, positions, rotations, exclude, chunk, options)
     labels: Labels = plan.labels()

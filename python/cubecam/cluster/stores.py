@@ -73,6 +73,7 @@ def capture_to_zarr(
     eye: npt.ArrayLike | None = None,
     depth_format: DepthFormat = "depth_component32f",
     depth_order: DepthOrder = "nearest",
+    max_lod_error: float = 0.0,
     chunk: int = 64,
     client: Client | None = None,
     pool: Pool | None = None,
@@ -92,7 +93,9 @@ def capture_to_zarr(
 
     Parameters
     ----------
-    scene, positions, size, outputs, rotations, near, far, exclude, format, samples, eye, depth_format, depth_order
+    scene, positions, size, outputs, rotations, near, far, exclude, format, samples, eye
+        As in `Renderer.capture_many`.
+    depth_format, depth_order, max_lod_error
         As in `Renderer.capture_many`.
     store : path, str or zarr.abc.store.Store
         The store to write or to go on with. All workers of a cluster must reach it under this name.
@@ -165,6 +168,7 @@ def capture_to_zarr(
         "eye": eye,
         "depth_format": depth_format,
         "depth_order": depth_order,
+        "max_lod_error": max_lod_error,
     }
     plan = plan_of(scene, positions, rotations, exclude, chunk, options)
     path = path_of(store)

@@ -188,13 +188,16 @@ class Pool:
         eye: npt.ArrayLike | None = None,
         depth_format: DepthFormat = "depth_component32f",
         depth_order: DepthOrder = "nearest",
+        max_lod_error: float = 0.0,
         progress: bool = True,
     ) -> CubeMapBatch:
         """Capture a scene from many places; see `Renderer.capture_many`.
 
         Parameters
         ----------
-        scene, positions, size, outputs, rotations, near, far, exclude, format, samples, eye, depth_format, depth_order
+        scene, positions, size, outputs, rotations, near, far, exclude, format, samples, eye
+            As in `Renderer.capture_many`.
+        depth_format, depth_order, max_lod_error
             As in `Renderer.capture_many`.
         progress : bool
             As in `Renderer.capture_many`; one bar for all workers.
@@ -227,6 +230,7 @@ class Pool:
                 "eye": eye,
                 "depth_format": depth_format,
                 "depth_order": depth_order,
+                "max_lod_error": max_lod_error,
             },
             in_memory=True,
         )
@@ -252,6 +256,7 @@ class Pool:
         eye: npt.ArrayLike | None = None,
         depth_format: DepthFormat = "depth_component32f",
         depth_order: DepthOrder = "nearest",
+        max_lod_error: float = 0.0,
         progress: bool = True,
     ) -> Iterator[CubeMap]:
         """Capture a scene from many places, and give one cubemap after the other; see `Renderer.iter_captures`.
@@ -261,7 +266,9 @@ class Pool:
 
         Parameters
         ----------
-        scene, positions, size, outputs, rotations, near, far, exclude, format, samples, eye, depth_format, depth_order
+        scene, positions, size, outputs, rotations, near, far, exclude, format, samples, eye
+            As in `Renderer.capture_many`.
+        depth_format, depth_order, max_lod_error
             As in `Renderer.capture_many`.
         progress : bool
             As in `Renderer.capture_many`.
@@ -301,6 +308,7 @@ class Pool:
                 "eye": eye,
                 "depth_format": depth_format,
                 "depth_order": depth_order,
+                "max_lod_error": max_lod_error,
             },
             in_memory=False,
         )
@@ -322,6 +330,7 @@ class Pool:
         effects: Iterable[ImageEffect] = (),
         depth_format: DepthFormat | None = "depth_component32f",
         screen_reflections: bool = False,
+        max_lod_error: float = 0.0,
         progress: bool = True,
     ) -> FrameBatch:
         """Render a scene for many cameras; see `Renderer.render_many`.
@@ -330,7 +339,7 @@ class Pool:
         ----------
         scene, cameras, size, outputs, format, samples, exposure, tonemap, encode, effects, depth_format
             As in `Renderer.render_many`.
-        screen_reflections, progress
+        screen_reflections, max_lod_error, progress
             As in `Renderer.render_many`.
 
         Returns
@@ -362,6 +371,7 @@ class Pool:
             "encode": encode,
             "depth_format": depth_format,
             "screen_reflections": screen_reflections,
+            "max_lod_error": max_lod_error,
         }
         passes = _listed(effects)
         batch = _RenderBatch(self._own(), scene, seen_by, size, effects=passes, **options)
@@ -404,6 +414,7 @@ class Pool:
         samples: int = 1,
         depth_format: DepthFormat = "depth_component32f",
         depth_order: DepthOrder = "nearest",
+        max_lod_error: float = 0.0,
         progress: bool = True,
     ) -> CubeMapBatch:
         """Capture many scenes, which the workers make, and of which each lives only until it is captured.
@@ -421,7 +432,7 @@ class Pool:
             The place of the capture in each scene, world; one for all, or one for each.
         size : int
             N, pixels along an edge of a face.
-        outputs, near, far, format, samples, depth_format, depth_order
+        outputs, near, far, format, samples, depth_format, depth_order, max_lod_error
             As in `Renderer.capture`.
         progress : bool
             As in `Renderer.capture_many`.
@@ -452,6 +463,7 @@ class Pool:
                 "eye": None,
                 "depth_format": depth_format,
                 "depth_order": depth_order,
+                "max_lod_error": max_lod_error,
             }
         )
         own = self._own()
