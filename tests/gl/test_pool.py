@@ -1,6 +1,7 @@
 """`cc.Pool`: the bytes of one renderer, whatever becomes of the processes that draw, and nothing left behind."""
 
 import concurrent.futures
+import contextlib
 import gc
 import multiprocessing
 import os
@@ -399,6 +400,19 @@ def test_what_a_worker_raises(pool):
         pool.capture_many(scene, places(20), SIZE)
     assert "in draw" in str(wrong.value.__cause__)
     assert len(pool.capture_many(boxes(), places(5), SIZE)) == 5
+
+
+def test_the_memory_of_a_call_that_fails_goes_with_its_error(pool):
+    gc.collect()
+    before = len(shared_memory())
+    gc.disable()
+    try:
+        for _ in range(3):
+            with contextlib.suppress(LookupError):
+                pool.capture_scenes(pool_scenes.failing, 40, size=SIZE)
+        eventually(lambda: len(shared_memory()) == before)
+    finally:
+        gc.enable()
 
 
 def test_which_error_is_raised(pool):
