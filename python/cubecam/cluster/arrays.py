@@ -68,8 +68,7 @@ def capture_array(
     Raises
     ------
     TypeError, ValueError, ContextError
-        As `Renderer.capture_many` raises, at the call. ValueError, too, for a scene in which a probe has
-        ``faces_per_frame`` below 6, whose pictures depend on those before.
+        As `Renderer.capture_many` raises, at the call.
     ImportError
         Without the packages of ``pip install "cubecam[cluster]"``.
 
@@ -189,12 +188,12 @@ def _arrays(plan: Plan) -> dict[str, dask.array.Array]:
     from dask.highlevelgraph import HighLevelGraph
 
     request = json.dumps(plan.request, sort_keys=True)
-    mark = hashlib.sha256(f"{plan.token} {request}".encode()).hexdigest()[:32]
-    scene, drawn = f"cubecam-scene-{plan.token}", f"cubecam-captures-{mark}"
+    mark = hashlib.sha256(f"{plan.hash} {request}".encode()).hexdigest()[:32]
+    scene, drawn = f"cubecam-scene-{plan.hash}", f"cubecam-captures-{mark}"
     layers: dict[str, Any] = {
         scene: {scene: (_same_bytes, plan.payload)},
         drawn: {
-            (drawn, number): (draw, scene, plan.token, plan.part(number), list(plan.layout))
+            (drawn, number): (draw, scene, plan.hash, plan.part(number), list(plan.layout))
             for number in range(plan.chunks)
         },
     }

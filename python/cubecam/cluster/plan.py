@@ -30,9 +30,8 @@ class Plan:
 
     work: Captures
     chunk: int
-    payload: bytes  # the scene and the nodes that are left out
-    token: str  # the same for the same payload
-    hash: str
+    payload: bytes  # the scene
+    hash: str  # of the scene
     names: list[str]  # of the outputs
     layout: Layout  # of the faces, then of the outputs
     encoding: Any
@@ -84,7 +83,7 @@ def plan_of(
     Raises
     ------
     TypeError, ValueError, ContextError
-        As `Renderer.capture_many` raises; ValueError, too, for a scene whose pictures depend on those before them.
+        As `Renderer.capture_many` raises.
     """
     if not isinstance(scene, Scene):
         raise TypeError(f"scene: expected a Scene, got {text_of(scene)}")
@@ -93,17 +92,13 @@ def plan_of(
     options = {**options, "outputs": _listed(options["outputs"])}
     with renderer_of_process() as renderer:
         batch = _CaptureBatch(renderer, scene, positions, rotations, exclude=left_out, **options)
-        if batch.in_order:
-            raise ValueError(
-                "scene: expected probes with faces_per_frame=6, got fewer: then a picture depends on those before it"
-            )
         check_batch_room(batch, min(places_of_chunk, len(batch)))
         names = [name for name, _, _ in batch.outputs]
         layout, encoding = cube_layout(batch), batch.encoding
     places, turns = floats_of(positions), floats_of(rotations)
     assert places is not None  # the batch has refused it
     known = scene_hash(scene)
-    ids = [node.id for node in left_out if isinstance(node, Node)]
+    ids = sorted({node.id for node in left_out})
     eye = options["eye"]
     options = {**options, "eye": None if eye is None else np.array(eye, np.float64).tolist()}
     request: dict[str, Any] = {
@@ -114,10 +109,9 @@ def plan_of(
         "places": _digest(places, turns),
     }
     return Plan(
-        Captures(places, turns, options),
+        Captures(places, turns, frozenset(ids), options),
         places_of_chunk,
-        pickle.dumps((scene, left_out), protocol=5),
-        hashlib.sha256(f"{known} {ids}".encode()).hexdigest()[:32],
+        pickle.dumps(scene, protocol=5),
         known,
         names,
         layout,

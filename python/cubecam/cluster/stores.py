@@ -123,7 +123,7 @@ def capture_to_zarr(
     ------
     TypeError, ValueError, ContextError
         As `Renderer.capture_many` raises; ValueError, too, if the store holds other captures: the error says what
-        differs. For a scene in which a probe has ``faces_per_frame`` below 6, whose pictures depend on those before.
+        differs.
     FileExistsError
         With ``resume=False``, if there is a store; if there is something else.
     Error
@@ -173,7 +173,7 @@ def capture_to_zarr(
     known = drawn_places(group)
     assert known is not None  # the store has the array: it is one of these
     todo = [k for k in range(plan.chunks) if not known[k * plan.chunk : (k + 1) * plan.chunk].all()]
-    job = _Job(place, plan.names, plan.chunk, plan.token, plan.layout, _mark(plan))
+    job = _Job(place, plan.names, plan.chunk, plan.hash, plan.layout, _mark(plan))
     with bar("captures", len(plan), None if progress else False) as advance:
         advance(len(plan) - sum(plan.span(k)[1] for k in todo))
         if not todo:
@@ -187,7 +187,7 @@ def capture_to_zarr(
                 _by_pool(made, scene, exclude, plan, job, todo, advance)
         else:
             for number in todo:
-                _write(job, number, draw(plan.payload, plan.token, plan.part(number), plan.layout))
+                _write(job, number, draw(plan.payload, plan.hash, plan.part(number), plan.layout))
                 advance(plan.span(number)[1])
     _end(group, place, path)
     opened: CubeMapBatch = open_batch(place)
@@ -201,7 +201,7 @@ class _Job:
     store: Any
     names: list[str]
     chunk: int
-    token: str
+    scene_hash: str
     layout: Layout
     mark: dict[str, Any]
 
@@ -383,7 +383,7 @@ def _by_client(
     from distributed import KilledWorker, as_completed
 
     # A task and no scattered data: if all workers that have it die, the scheduler makes it again.
-    name = f"cubecam-scene-{plan.token}-{time.time_ns()}"
+    name = f"cubecam-scene-{plan.hash}-{time.time_ns()}"
     options: dict[str, Any] = {"pure": False}
     if resources is not None:
         options["resources"] = dict(resources)
@@ -442,5 +442,5 @@ def _same_bytes(payload: bytes) -> bytes:
 
 def _draw_and_write(payload: bytes, job: _Job, number: int, work: Captures) -> int:
     """Draw and write a chunk on a worker."""
-    _write(job, number, draw(payload, job.token, work, job.layout))
+    _write(job, number, draw(payload, job.scene_hash, work, job.layout))
     return number

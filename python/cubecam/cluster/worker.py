@@ -42,16 +42,16 @@ class _Desk:
                 self._renderer = None
                 raise
 
-    def draw(self, payload: bytes, token: str, work: Captures, arrays: Arrays) -> None:
-        """Draw into arrays; the payload is read if its token is new."""
+    def draw(self, payload: bytes, scene_hash: str, work: Captures, arrays: Arrays) -> None:
+        """Draw into arrays; the payload is read if the scene is new."""
         with self.renderer() as renderer:
-            if token in self._scenes:
-                self._scenes.move_to_end(token)
+            if scene_hash in self._scenes:
+                self._scenes.move_to_end(scene_hash)
             else:
-                self._scenes[token] = pickle.loads(payload)
+                self._scenes[scene_hash] = pickle.loads(payload)
                 while len(self._scenes) > _SCENES:
                     self._scenes.popitem(last=False)
-            work.draw(renderer, self._scenes[token], 0, arrays)
+            work.draw(renderer, self._scenes[scene_hash], arrays)
 
 
 _desk = _Desk()
@@ -69,15 +69,15 @@ def renderer_of_process() -> contextlib.AbstractContextManager[Renderer]:
     return _desk.renderer()
 
 
-def draw(payload: bytes, token: str, work: Captures, layout: Layout) -> Arrays:
+def draw(payload: bytes, scene_hash: str, work: Captures, layout: Layout) -> Arrays:
     """Draw a chunk: the faces, then the outputs.
 
     Parameters
     ----------
     payload : bytes
-        The scene and the nodes that are left out, as a pickle; it is read once for each token.
-    token : str
-        Names the payload.
+        The scene as a pickle, which is read once for each hash.
+    scene_hash : str
+        The scene's `cubecam.scene_hash`.
     work : Captures
         The places of the chunk.
     layout : list
@@ -85,7 +85,7 @@ def draw(payload: bytes, token: str, work: Captures, layout: Layout) -> Arrays:
     """
     arrays: Arrays = [np.empty((len(work.positions), *shape), dtype) for shape, dtype in layout]
     if len(work.positions):
-        _desk.draw(payload, token, work, arrays)
+        _desk.draw(payload, scene_hash, work, arrays)
     return arrays
 
 
