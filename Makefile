@@ -60,7 +60,7 @@ test-interop: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-browser $(VENV
 	@CUBECAM_BPY_PYTHON=$(abspath $(VENV)/bpy/bin/python) $(PY) -m pytest -m interop tests/interop $(PYTEST_ARGS)
 
 test-torch: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.torch ## train with PyTorch while cubecam draws: docs/howto/train.md; downloads 0.5 GB unless PyTorch is there
-	@PYTHONPATH="$(TORCH)$${PYTHONPATH:+:$$PYTHONPATH}" OMP_WAIT_POLICY=passive $(PY) -m pytest -m torch tests/torch $(PYTEST_ARGS)
+	@PYTHONPATH="$(abspath $(TORCH))$${PYTHONPATH:+:$$PYTHONPATH}" OMP_WAIT_POLICY=passive $(PY) -m pytest -m torch tests/torch $(PYTEST_ARGS)
 
 test-lowest: $(VENV)/.deps $(VENV)/.deps-lowest ## build and test with the lowest versions that pyproject.toml declares; needs Python 3.10 or 3.11
 	@$(PY) scripts/lowest.py $(VENV)/lowest -n $(WORKERS) --dist loadfile --no-loadscope-reorder $(PYTEST_ARGS)

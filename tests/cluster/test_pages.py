@@ -112,7 +112,7 @@ def test_jobqueue_submits_what_the_page_says():
     for words in ("--nworkers 8", "--nthreads 1", "--lifetime 110m", "--local-directory /tmp"):
         assert words in script
     (limit,) = re.findall(r"--memory-limit ([\d.]+)GiB", script)
-    assert float(limit) * 1024 > 750 + 100  # MiB, as the page says for faces of 256 pixels
+    assert 0.8 * 1024 * float(limit) > 750  # MiB at faces of 256 pixels; a worker pauses at 80 %
 
 
 def test_the_program_of_kubernetes_writes_all_places(tmp_path):

@@ -313,6 +313,14 @@ class TestMillion:
         assert made.count("\n") == between.count("\n")
         upper = made[: made.index("| a million")]
         assert between.startswith(upper)
+        for line, row in zip(
+            made.splitlines()[-3:], rows_below(self.NAME, "| a million |"), strict=True
+        ):
+            name, *cells = (cell.strip() for cell in line.strip("|").split("|"))
+            assert name == row[0]
+            np.testing.assert_allclose(
+                np.array(cells, float), np.array(row[1:], float), rtol=0.02, atol=0.11
+            )
 
     def test_the_scenes_are_those_of_the_script(self, measured):
         assert {name: of["size"] for name, of in measured.items()} == {

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import psutil
@@ -197,7 +198,7 @@ def test_a_pool_gives_memory_that_its_processes_wrote():
     assert "memfd:cubecam" in mapping_of(colors.data_ptr())
     assert "memfd:cubecam" in mapping_of(distance.data_ptr())
     with cc.Renderer() as renderer:
-        options = {"format": "rgba16f", "outputs": ["distance"]}
+        options: dict[str, Any] = {"format": "rgba16f", "outputs": ["distance"]}
         for number, got in ((0, colors[0]), (63, colors[63]), (64, more[0])):
             want = renderer.capture(numbered_room(0, number), size=32, **options)
             assert_identical(got.numpy(), want.faces)
