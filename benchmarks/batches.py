@@ -7,8 +7,8 @@
 must be those of single captures, and its pictures those of the program in moderngl but for rounding, before a time is
 taken. Groups of 32 cubemaps take turns, and the figure is the median of the groups' ratios of CPU time of all threads.
 
-**Levels:** the same field of teapots, or of knots of 60,000 triangles together, with levels of detail within half a pixel
-or four of the exact pictures, over a batch without.
+**Levels:** the same field of teapots, or of knots of 60,000 triangles together, with levels of detail within half a
+pixel or four of the exact pictures, over a batch without.
 
 **Empty:** a scene with a background alone, captured from places that change: what a cubemap costs besides drawing. The
 results' memory is new for each frame, or that of the frame before.

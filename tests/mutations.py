@@ -32,6 +32,8 @@ ALPHA = ("tests/gl/test_alpha.py",)
 SIDES = ("tests/gl/test_sides.py",)
 STATS = ("tests/gl/test_stats.py",)
 STATIC = ("tests/gl/test_static_geometry.py",)
+LEVELS = ("tests/gl/test_levels.py",)
+SIMPLIFY = ("tests/unit/test_levels.py",)
 PROBES = ("tests/gl/test_probes.py",)
 BOUNCES = ("tests/gl/test_bounces.py",)
 FORMATS = ("tests/gl/test_formats.py",)
@@ -530,6 +532,139 @@ MUTATIONS = [
         "stats.triangles_skipped +=",
         "stats.triangles +=",
         STATIC,
+    ),
+    Mutation(
+        "levels: an error is not scaled with its node",
+        "level_choice.cpp",
+        "const double error = scale * levels[i].error;",
+        "const double error = levels[i].error;",
+        LEVELS,
+    ),
+    Mutation(
+        "levels: a picture's corners count as its middle",
+        "level_choice.cpp",
+        "return scale.pixels * error * std::sqrt(1.0 + widest) / nearest;",
+        "return scale.pixels * error / nearest;",
+        LEVELS,
+    ),
+    Mutation(
+        "levels: the middle of a node's bounds counts",
+        "level_choice.cpp",
+        "nearest = std::min(nearest, depth);",
+        "nearest = -(view.view * glm::dvec4(box.center(), 1.0)).z;",
+        LEVELS,
+    ),
+    Mutation(
+        "levels: one face of a cube decides",
+        "level_choice.cpp",
+        "const bool fits = std::all_of(",
+        "const bool fits = std::any_of(",
+        LEVELS,
+    ),
+    Mutation(
+        "levels: the finest that fits",
+        "level_choice.cpp",
+        "for (std::size_t i = levels.size(); i-- > 0;) {",
+        "for (std::size_t i = 0; i < levels.size(); ++i) {",
+        LEVELS,
+    ),
+    Mutation(
+        "levels: what casts shadows on itself has some",
+        "level_choice.cpp",
+        "return !(shadows_ && casts_shadow(node) && receive_shadow(node));",
+        "return true;",
+        LEVELS,
+    ),
+    Mutation(
+        "levels: deformed meshes have some",
+        "level_choice.cpp",
+        "node.deforms || node.unbounded",
+        "node.unbounded",
+        LEVELS,
+    ),
+    Mutation(
+        "levels: pictures forget which one they show",
+        "picture_key.cpp",
+        "if (a.mesh != b.mesh) return false;",
+        "",
+        LEVELS,
+    ),
+    Mutation(
+        "levels: probes have some",
+        "scene_picture.cpp",
+        "root->kind == PictureKind::frame ? context_.max_lod_error : 0.0",
+        "context_.max_lod_error",
+        LEVELS,
+    ),
+    Mutation(
+        "levels: another limit is the same call",
+        "frame_context.cpp",
+        "request.add(max_lod_error);",
+        "",
+        LEVELS,
+    ),
+    Mutation(
+        "simplify: borders may move",
+        "simplify.cpp",
+        "(border && shared != 1)",
+        "false",
+        SIMPLIFY,
+    ),
+    Mutation(
+        "simplify: seams may open",
+        "simplify.cpp",
+        "} else if (known->second != *other) {",
+        "} else if (false) {",
+        SIMPLIFY,
+    ),
+    Mutation(
+        "simplify: triangles may fold",
+        "simplify.cpp",
+        "if (folds(from, to)) return std::nullopt;",
+        "",
+        SIMPLIFY,
+    ),
+    Mutation(
+        "simplify: attributes do not count in the error",
+        "simplify.cpp",
+        "attribute_error_ = std::max(attribute_error_, made.attributes);",
+        "",
+        SIMPLIFY,
+    ),
+    Mutation(
+        "simplify: attributes are constant over a triangle",
+        "simplify.cpp",
+        "(attributes_.of(v.y)[k] - s) * sides.along_e +",
+        "0.0 * sides.along_e +",
+        SIMPLIFY,
+    ),
+    Mutation(
+        "simplify: the error is that of corners alone",
+        "surface_distance.cpp",
+        "bound = std::max(bound, most);",
+        "bound = std::max(bound, 0.5 * known);",
+        SIMPLIFY,
+    ),
+    Mutation(
+        "simplify: only one surface is measured",
+        "surface_distance.cpp",
+        "return std::max(away, back);",
+        "return back;",
+        SIMPLIFY,
+    ),
+    Mutation(
+        "levels: new vertices keep them",
+        "mesh_data.cpp",
+        "} else if (update.changes_vertices()) {",
+        "} else if (false) {",
+        SIMPLIFY,
+    ),
+    Mutation(
+        "levels: a resized mesh keeps their errors",
+        "mesh_data.cpp",
+        "next.make_levels_again(factor);",
+        "next.make_levels_again(1.0);",
+        SIMPLIFY,
     ),
     Mutation(
         "static geometry: a shadow map reads the wrong nodes",

@@ -94,8 +94,8 @@ MorphTargets to_targets(py::handle targets) {
     return found;
 }
 
-using LevelsLike =
-    OneOf<py::typing::Iterable<py::typing::Tuple<ArrayLike, py::typing::Union<py::int_, py::float_>>>>;
+using LevelsLike = OneOf<
+    py::typing::Iterable<py::typing::Tuple<ArrayLike, py::typing::Union<py::int_, py::float_>>>>;
 using Levels =
     py::typing::Tuple<py::typing::Tuple<py::array_t<std::uint32_t>, py::float_>, py::ellipsis>;
 
@@ -238,7 +238,8 @@ std::string represent(const Mesh& mesh) {
     const std::size_t levels = data->levels() ? data->levels()->size() : 0;
     return "Mesh(" + std::to_string(data->positions()->size()) + " vertices, " +
            std::to_string(data->triangles()->size()) + " triangles" +
-           (levels == 0 ? "" : ", " + std::to_string(levels) + (levels == 1 ? " level" : " levels")) +
+           (levels == 0 ? ""
+                        : ", " + std::to_string(levels) + (levels == 1 ? " level" : " levels")) +
            ")";
 }
 

@@ -85,16 +85,13 @@ FrameRequest frame_request(const Scene& scene, const SeenBy& camera, const bindi
     return {snapshot_of(scene, bindings::to_effects(effects)), std::move(seen), std::move(options)};
 }
 
-CaptureRequest capture_request(const Scene& scene, const bindings::ArrayLike& position,
-                               const bindings::WholeNumber& size, bindings::Real near,
-                               bindings::Real far, const bindings::Nodes& exclude,
-                               const OutputNames& outputs, const FormatOrNone& format,
-                               const bindings::WholeNumber& samples,
-                               const bindings::OrNone<bindings::ArrayLike>& eye,
-                               const bindings::DepthFormatName& depth_format,
-                               const bindings::Choice<depth_order_names>& depth_order,
-                               const bindings::OrNone<bindings::ArrayLike>& rotation,
-                               bindings::Real max_lod_error) {
+CaptureRequest capture_request(
+    const Scene& scene, const bindings::ArrayLike& position, const bindings::WholeNumber& size,
+    bindings::Real near, bindings::Real far, const bindings::Nodes& exclude,
+    const OutputNames& outputs, const FormatOrNone& format, const bindings::WholeNumber& samples,
+    const bindings::OrNone<bindings::ArrayLike>& eye, const bindings::DepthFormatName& depth_format,
+    const bindings::Choice<depth_order_names>& depth_order,
+    const bindings::OrNone<bindings::ArrayLike>& rotation, bindings::Real max_lod_error) {
     CaptureOptions options =
         capture_options(scene, {size, near, far, exclude, outputs, format, samples, eye,
                                 depth_format, depth_order, max_lod_error});
@@ -169,14 +166,13 @@ void bind_renderer(pybind11::module_& m) {
                      py::arg("screen_reflections") = false, py::arg("max_lod_error") = 0.0, doc);
     };
     const auto def_capture = [&](const char* name, auto method, const char* doc) {
-        renderer.def(name, method, py::arg("scene"),
-                     py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("size") = 256,
-                     py::kw_only(), py::arg("near") = 0.05, py::arg("far") = 1000.0,
-                     py::arg("exclude") = py::tuple(), py::arg("outputs") = py::tuple(),
-                     py::arg("format") = "rgba32f", py::arg("samples") = 1,
-                     py::arg("eye") = py::none(), py::arg("depth_format") = "depth_component32f",
-                     py::arg("depth_order") = "nearest", py::arg("rotation") = py::none(),
-                     py::arg("max_lod_error") = 0.0, doc);
+        renderer.def(
+            name, method, py::arg("scene"), py::arg("position") = py::make_tuple(0.0, 0.0, 0.0),
+            py::arg("size") = 256, py::kw_only(), py::arg("near") = 0.05, py::arg("far") = 1000.0,
+            py::arg("exclude") = py::tuple(), py::arg("outputs") = py::tuple(),
+            py::arg("format") = "rgba32f", py::arg("samples") = 1, py::arg("eye") = py::none(),
+            py::arg("depth_format") = "depth_component32f", py::arg("depth_order") = "nearest",
+            py::arg("rotation") = py::none(), py::arg("max_lod_error") = 0.0, doc);
     };
     def_render("render", &Render::now, docs::render);
     def_render("render_async", &Render::later, docs::render_async);

@@ -4835,6 +4835,8 @@ class Mesh:
         comparing them would cost more than it saves. Other threads may draw at the same time: a picture shows
         the mesh before or after an update, never a part of it. Arrays that were read before keep their values.
 
+        New positions, normals, uvs, colours or tangents end the `levels` of the mesh.
+
         Parameters
         ----------
         positions : array_like (V, 3), optional
@@ -4913,11 +4915,11 @@ class Mesh:
         The order is that of the quadric errors of M. Garland and P. Heckbert, "Surface Simplification Using Quadric Error
         Metrics", SIGGRAPH 1997, with attributes after H. Hoppe, "New Quadric Metric for Simplifying Meshes with Appearance
         Attributes", IEEE Visualization 1999. The error of a level is the greater of two. One is an upper bound for the
-        Hausdorff distance of the surfaces, at most 5 % above it, which is found by cutting triangles (after M. Tang, M. Lee and
-        Y. Kim, "Interactive Hausdorff Distance Computation for General Polygonal Models", SIGGRAPH 2009). The other is the
-        greatest root of a mean square by which normals, uvs or colours differ round a vertex, where a difference of 1 counts
-        as the length on the surface over which they change by 1 on average, at most a quarter of the mesh's extent: that one
-        is an estimate.
+        Hausdorff distance of the surfaces, above it by at most 5 % or 1e-4 of the mesh's extent, which is found by cutting
+        triangles (after M. Tang, M. Lee and Y. Kim, "Interactive Hausdorff Distance Computation for General Polygonal Models",
+        SIGGRAPH 2009). The other is the greatest root of a mean square by which normals, uvs or colours differ round a vertex,
+        where a difference of 1 counts as the length on the surface over which they change by 1 on average, at most a quarter of
+        the mesh's extent: that one is an estimate.
 
         Nodes draw the exact mesh where a level would not fit: with joints or morph targets; with materials that move vertices
         or count triangles, that set ``flat_shading`` or need tangents that the mesh lacks, and glass that follows light through

@@ -91,7 +91,9 @@ def test_the_choice_of_a_perspective(renderer, rng):
     for _ in range(60):
         scene = cc.Scene()
         z = -np.exp(rng.uniform(np.log(2.5), np.log(200)))
-        matrix = random_place(rng, (rng.uniform(-0.3, 0.3) * -z * 0.5, rng.uniform(-0.2, 0.2) * -z * 0.5, z))
+        matrix = random_place(
+            rng, (rng.uniform(-0.3, 0.3) * -z * 0.5, rng.uniform(-0.2, 0.2) * -z * 0.5, z)
+        )
         scene.add(mesh, cc.BasicMaterial(), matrix=matrix)
         limit = float(rng.choice([0.3, 1, 3]))
         camera = cc.PerspectiveCamera(fov=fov, near=0.01, far=1000)
@@ -124,7 +126,9 @@ def test_all_faces_of_a_cube_show_the_same_level(new_renderer, rng, layered):
     found = []
     for _ in range(40):
         direction = rng.normal(size=3)
-        matrix = random_place(rng, direction / np.linalg.norm(direction) * np.exp(rng.uniform(0.8, 3.2)))
+        matrix = random_place(
+            rng, direction / np.linalg.norm(direction) * np.exp(rng.uniform(0.8, 3.2))
+        )
         scene = cc.Scene()
         scene.add(mesh, cc.BasicMaterial(), matrix=matrix)
         cube = renderer.capture(scene, (0, 0, 0), 64, max_lod_error=0.7, outputs=("id",))
@@ -172,7 +176,9 @@ def grown(mask, radius):
     for y in range(-reach, reach + 1):
         for x in range(-reach, reach + 1):
             if x * x + y * y <= radius * radius:
-                found |= padded[reach + y : reach + y + mask.shape[0], reach + x : reach + x + mask.shape[1]]
+                found |= padded[
+                    reach + y : reach + y + mask.shape[0], reach + x : reach + x + mask.shape[1]
+                ]
     return found
 
 
@@ -201,7 +207,8 @@ def test_silhouettes_are_off_by_no_more_than_the_error(renderer, name):
             )
             saved.append(renderer.stats.triangles_simplified / len(mesh.indices))
             level = level.id != 0
-            assert exact.any() and not exact.all()
+            assert exact.any()
+            assert not exact.all()
             assert not (level & ~grown(exact, limit + 1)).any()
             assert not (exact & ~grown(level, limit + 1)).any()
     assert max(saved) > 0.7  # else nothing was tried
@@ -239,7 +246,9 @@ def test_without_the_option_nothing_changes(any_path, rng):
         for name in HEAD:
             assert_identical(getattr(a, name), getattr(b, name))
         a = any_path.render(plain, camera, (40, 30))
-        assert_identical(a.color, any_path.render(leveled, camera, (40, 30), max_lod_error=limit).color)
+        assert_identical(
+            a.color, any_path.render(leveled, camera, (40, 30), max_lod_error=limit).color
+        )
 
 
 def test_a_level_is_drawn_as_if_it_were_the_mesh(any_path):
@@ -247,7 +256,11 @@ def test_a_level_is_drawn_as_if_it_were_the_mesh(any_path):
     rng = np.random.default_rng(3)
     full = cc.Mesh.sphere(1)
     mesh = cc.Mesh(
-        full.positions, full.indices, normals=full.normals, uvs=full.uvs, colors=rng.random((len(full.uvs), 3))
+        full.positions,
+        full.indices,
+        normals=full.normals,
+        uvs=full.uvs,
+        colors=rng.random((len(full.positions), 3)),
     )
     mesh.levels = mesh.with_levels().levels[:2]
     alone = cc.Mesh(
@@ -283,7 +296,8 @@ def test_batches_and_later_calls_have_the_bytes_of_single_calls(new_renderer, rn
                 assert_identical(cube.faces, single.faces)
                 for name in HEAD:
                     assert_identical(cube.outputs[name], single.outputs[name])
-        made = cc.capture_scenes(lambda number: scene, 1, position=places[0], size=24, renderer=renderer, **options)
+        make = [scene].__getitem__
+        made = cc.capture_scenes(make, 1, position=places[0], size=24, renderer=renderer, **options)
         assert_identical(made.faces[0], singles[0].faces)
         cameras = [cc.PerspectiveCamera(position=place, target=(0, 0, 0)) for place in places]
         frames = [renderer.render(scene, camera, (40, 30), **options) for camera in cameras]
@@ -421,7 +435,8 @@ def test_what_casts_and_receives_shadows_is_exact(renderer):
     scene.add(cc.PointLight((5, 5, -25), shadow=cc.Shadow(size=16)))
     ball = scene.nodes[0]
     renderer.capture(scene, size=32, max_lod_error=2)
-    assert renderer.stats.triangles_simplified == 0 and renderer.stats.shadow_views_drawn == 6
+    assert renderer.stats.triangles_simplified == 0
+    assert renderer.stats.shadow_views_drawn == 6
     ball.cast_shadow = False
     assert saved(renderer, scene) > 0
     ball.cast_shadow, ball.receive_shadow = True, False

@@ -223,6 +223,8 @@ the GPU again. Any call with an array counts as a change, even if all numbers ar
 comparing them would cost more than it saves. Other threads may draw at the same time: a picture shows
 the mesh before or after an update, never a part of it. Arrays that were read before keep their values.
 
+New positions, normals, uvs, colours or tangents end the `levels` of the mesh.
+
 Parameters
 ----------
 positions : array_like (V, 3), optional

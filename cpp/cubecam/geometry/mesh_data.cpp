@@ -244,14 +244,15 @@ void MeshData::set_levels(const std::vector<MeshLevel>& levels) {
         const std::string of = " of level " + std::to_string(i);
         check_triangles(levels[i].triangles, positions()->size(), of);
         expect_not_negative(levels[i].error, "an error" + of + " that is");
-        expect(levels[i].error >= last, "errors of levels that do not decrease, from fine to coarse",
+        expect(levels[i].error >= last,
+               "errors of levels that do not decrease, from fine to coarse",
                describe(levels[i].error) + " after " + describe(last));
         last = levels[i].error;
         made.push_back(drawn_level(
             std::make_shared<const std::vector<glm::uvec3>>(levels[i].triangles), last));
     }
-    levels_ = made.empty() ? nullptr
-                           : std::make_shared<const std::vector<DrawnLevel>>(std::move(made));
+    levels_ =
+        made.empty() ? nullptr : std::make_shared<const std::vector<DrawnLevel>>(std::move(made));
 }
 
 void MeshData::make_levels_again(double factor) {

@@ -79,9 +79,7 @@ struct MeshUpdate {
     bool changes_vertices() const {
         return positions || normals || uvs || colors || uvs1 || tangents;
     }
-    bool empty() const {
-        return !changes_vertices() && !influences && !targets && !levels;
-    }
+    bool empty() const { return !changes_vertices() && !influences && !targets && !levels; }
 };
 
 /// Indexed triangles with normals and, if the mesh has them, two sets of texture coordinates,

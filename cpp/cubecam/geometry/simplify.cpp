@@ -228,9 +228,8 @@ public:
             if (next.stamp != stamps_[next.from]) continue;
             const double greatest = greatest_share * extent_;
             if (next.cost > greatest * greatest) return;
-            const std::optional<Contraction> found =
-                contraction(next.from, next.to, neighbours(next.from),
-                            std::numeric_limits<double>::infinity());
+            const std::optional<Contraction> found = contraction(
+                next.from, next.to, neighbours(next.from), std::numeric_limits<double>::infinity());
             if (!found) {
                 queue(next.from);
                 continue;
@@ -416,9 +415,10 @@ private:
         const std::vector<Neighbour> beyond = neighbours(to);
         int common = 0;
         for (const Neighbour& neighbour : beyond) {
-            common += static_cast<int>(std::any_of(
-                near.begin(), near.end(),
-                [&](const Neighbour& other) { return other.place == neighbour.place; }));
+            common +=
+                static_cast<int>(std::any_of(near.begin(), near.end(), [&](const Neighbour& other) {
+                    return other.place == neighbour.place;
+                }));
         }
         if (common != shared) return std::nullopt;
         const std::size_t joined =
@@ -488,9 +488,8 @@ private:
         const std::vector<Neighbour> near = neighbours(place);
         std::optional<Contraction> best;
         for (const Neighbour& neighbour : near) {
-            auto found =
-                contraction(place, neighbour.place, near,
-                            best ? best->cost : std::numeric_limits<double>::infinity());
+            auto found = contraction(place, neighbour.place, near,
+                                     best ? best->cost : std::numeric_limits<double>::infinity());
             if (found) best = std::move(found);
         }
         if (best) waiting_.push({best->cost, place, best->to, stamps_[place]});

@@ -99,8 +99,7 @@ public:
         std::vector<CutPiece> waiting;
         std::size_t steps = 0;
         for (const glm::uvec3& triangle : from_) {
-            waiting.push_back(
-                {{corners[triangle.x], corners[triangle.y], corners[triangle.z]}, 0});
+            waiting.push_back({{corners[triangle.x], corners[triangle.y], corners[triangle.z]}, 0});
             while (!waiting.empty()) {
                 poll_interrupts(steps++);
                 const CutPiece piece = waiting.back();

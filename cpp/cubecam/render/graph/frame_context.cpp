@@ -27,7 +27,8 @@ constexpr std::size_t most_mirror_pictures = 256;
 
 FrameContext::FrameContext(RendererState& its_gpu, const SceneSnapshot& its_scenes,
                            double lod_error)
-    : gpu(its_gpu), scenes(its_scenes), max_lod_error(lod_error), pictures([this](const PictureId& id) { return make(id); }),
+    : gpu(its_gpu), scenes(its_scenes), max_lod_error(lod_error),
+      pictures([this](const PictureId& id) { return make(id); }),
       contents_(its_scenes.others.size() + 1), circles_(contents_.size()) {
     std::map<const void*, std::size_t> users;  // how many scenes so far use an object; not iterated
     for (std::size_t s = 0; s < contents_.size(); ++s) {

@@ -121,9 +121,8 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
             return;
         }
         const GpuMesh& mesh = cache_->mesh(*node.mesh);
-        const std::optional<IndexRange> indices =
-            picker_.pick(node, *node.mesh, mesh, from, {0, 0, map.size, map.size},
-                         {map.size, map.size});
+        const std::optional<IndexRange> indices = picker_.pick(
+            node, *node.mesh, mesh, from, {0, 0, map.size, map.size}, {map.size, map.size});
         std::size_t place = casters.size();
         if (!indices) {
             const std::uint64_t material = has_holes(node) ? node.material.revision : 0;

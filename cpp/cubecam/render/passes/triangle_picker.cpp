@@ -28,8 +28,8 @@ double displacement_of(const NodeSnapshot& node) {
 }  // namespace
 
 std::optional<IndexRange> TrianglePicker::pick(const NodeSnapshot& node, const MeshData& data,
-                                               const GpuMesh& mesh, const View& view, const Rect& rect,
-                                               const glm::ivec2& size) {
+                                               const GpuMesh& mesh, const View& view,
+                                               const Rect& rect, const glm::ivec2& size) {
     const PartCosts& costs = cache_->part_costs();
     if (!is_parted(node, data, costs)) return std::nullopt;
     const PartFrustum part = Culling(view).part_frustum(node, rect, size.x, size.y);

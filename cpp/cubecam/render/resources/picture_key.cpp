@@ -86,8 +86,8 @@ struct Comparison {
         if (a.bounds != b.bounds || a.receive_shadow != b.receive_shadow) return false;
         if (a.receive_shadow && !same_shadows) return false;
         if (a.mesh != b.mesh) return false;  // a node may show another level of detail
-        if (a.revision != b.revision && (a.material != b.material ||
-                                         a.world != b.world || a.label != b.label)) {
+        if (a.revision != b.revision &&
+            (a.material != b.material || a.world != b.world || a.label != b.label)) {
             return false;
         }
         const auto textures_a = before.textures_of(a);
