@@ -127,7 +127,8 @@ def speed_marks(rounds: int, captures: int) -> Section:
 
 def _both(threads: ThreadPoolExecutor, programs: list[CpuWorker]) -> float:
     """Seconds until two programs that begin at once have drawn their halves."""
-    return max(found["wall"] for found in threads.map(lambda each: _call(each, "run"), programs))
+    found = threads.map(lambda each: _call(each, "run"), programs)
+    return max(float(each["wall"]) for each in found)
 
 
 def start_marks(captures: int) -> Section:

@@ -46,7 +46,7 @@ nitpicky = True
 nitpick_ignore_regex = [
     (
         r"py:.*",
-        r"(ArrayLike|NDArray|DTypeLike|PathLike|Path|Iterable|Iterator|Sequence|Mapping|Callable|Unpack)",
+        r"(ArrayLike|NDArray|DTypeLike|PathLike|Path|Executor|Iterable|Iterator|Sequence|Mapping|Callable|Unpack)",
     ),
     (
         r"py:.*",

@@ -59,9 +59,9 @@ class _Draws:
 
 def digest_of(batch: cc.CubeMapBatch) -> str:
     """The bytes of a batch, in short."""
-    made = hashlib.sha256(np.ascontiguousarray(batch.faces))
-    for values in batch.outputs.values():
-        made.update(np.ascontiguousarray(values))
+    made = hashlib.sha256()
+    for values in (batch.faces, *batch.outputs.values()):
+        made.update(np.ascontiguousarray(values).data)
     return made.hexdigest()
 
 

@@ -85,10 +85,11 @@ def slow(number):
 SHARED = cc.Scene(background=(0.2, 0.4, 0.6))
 _BALL = SHARED.add(BALL, cc.MirrorMaterial(), position=(0, 0, -3))
 _BALL.environment = cc.Probe(parent=_BALL, size=8, update="once")
-_BOX = SHARED.add(cc.Mesh.box(1), cc.BasicMaterial(color=(1, 0, 0)), position=(0, 0, 2))
+_MATERIAL = cc.BasicMaterial()
+SHARED.add(cc.Mesh.box(20), _MATERIAL, position=(0, 0, 14))
 
 
 def same_again(number):
     """One scene for all numbers, whose probe is drawn once."""
-    _BOX.position = (number / 10, 0, 2)
+    _MATERIAL.color = (1, number / 40, 0)
     return SHARED

@@ -1,6 +1,7 @@
 """`cc.Pool`: the bytes of one renderer, whatever becomes of the processes that draw, and nothing left behind."""
 
 import concurrent.futures
+import contextlib
 import gc
 import multiprocessing
 import os
@@ -18,7 +19,9 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from benchmarks.peers import pool_cubecam
 from cubecam.pool import crew as crews
+from cubecam.pool import remote
 from tests.gl import pool_scenes
 from tests.gl.full_world import full_world
 from tests.helpers import DEVICE, run_python
@@ -142,6 +145,7 @@ def test_captures_have_the_bytes_of_one_renderer(pool, one_worker, renderer, opt
             assert cube.outputs[name].tobytes() == values.tobytes()
 
 
+@pytest.mark.slow
 def test_a_world_with_everything(pool, new_renderer, rng):
     """Render textures, probes, users' shaders, skins, effects: workers draw what one new renderer draws."""
     world = full_world(rng)
@@ -234,7 +238,7 @@ def sent_scenes(monkeypatch):
     load = crews._Seat._load
 
     def counted(seat, payload):
-        sent.append(payload.token)
+        sent.append((id(seat), payload.token))
         load(seat, payload)
 
     monkeypatch.setattr(crews._Seat, "_load", counted)
@@ -245,20 +249,29 @@ def test_an_unchanged_scene_is_sent_once_to_each_worker(pool, renderer, monkeypa
     sent = sent_scenes(monkeypatch)
     scene = boxes()
     for _ in range(3):
-        batch = pool.capture_many(scene, places(60), SIZE)
-    assert len(sent) == 2
+        pool.capture_many(scene, places(60), SIZE)
+    assert len({token for _, token in sent}) == 1
     next(iter(scene.nodes)).visible = False
     batch = pool.capture_many(scene, places(60), SIZE)
-    assert len(sent) == 4
+    assert len({token for _, token in sent}) == 2
+    assert len(sent) == len(set(sent))
     assert_same(batch, renderer.capture_many(scene, places(60), SIZE))
 
 
-def test_workers_forget_what_nobody_needs(pool):
-    for _ in range(3):
-        pool.capture_many(boxes(), places(60), SIZE)
-        pool.capture_scenes(pool_scenes.numbered, 20, size=SIZE)
-    seats = crew_of(pool)._seats
-    eventually(lambda: all(len(seat._loaded) <= 1 and not seat._opened for seat in seats))
+def test_workers_forget_what_nobody_needs(one_worker):
+    def memory():
+        [process] = crew_of(one_worker).pids
+        lines = Path(f"/proc/{process}/status").read_text().splitlines()
+        return sum(int(line.split()[1]) for line in lines if line.startswith("VmRSS")) / 1024
+
+    found = []
+    for number in range(6):
+        scene = cc.Scene()
+        image = cc.Image(np.full((2048, 2048, 4), number, np.uint8))  # 16 MiB
+        scene.add(cc.Mesh.plane(), cc.BasicMaterial(map=image))
+        one_worker.capture_many(scene, places(2), SIZE)
+        found.append(memory())
+    assert found[-1] - found[1] < 3 * 16  # four more would be 64, and again as much for the driver
 
 
 def test_a_result_is_shared_memory_and_goes_with_its_arrays(pool):
@@ -325,8 +338,7 @@ def test_a_worker_that_dies_is_replaced(pool, renderer, tmp_path):
     made = pool.capture_scenes(pool_scenes.DiesOnce(tmp_path), 12, size=SIZE)
     assert_same(made, cc.capture_scenes(pool_scenes.numbered, 12, size=SIZE, renderer=renderer))
     assert (tmp_path / "died").exists()
-    assert len(first & set(crew_of(pool).pids)) == 1
-    assert len(crew_of(pool).pids) == 2
+    assert set(crew_of(pool).pids) != first
 
 
 def test_workers_that_are_killed_in_the_middle(pool, renderer):
@@ -342,6 +354,7 @@ def test_workers_that_are_killed_in_the_middle(pool, renderer):
     assert np.stack(found).tobytes() == single.faces.tobytes()
 
 
+@pytest.mark.slow
 def test_workers_that_died_between_two_calls(pool):
     """They are no sign that a piece kills those who draw it."""
     for _ in range(4):
@@ -350,6 +363,7 @@ def test_workers_that_died_between_two_calls(pool):
         assert len(pool.capture_many(boxes(), places(1), SIZE)) == 1
 
 
+@pytest.mark.slow
 def test_what_kills_every_worker(pool):
     text = (
         "scenes 3: expected a worker process to draw them, got the end of 3 that tried (SIGKILL, "
@@ -360,6 +374,7 @@ def test_what_kills_every_worker(pool):
     assert len(pool.capture_many(boxes(), places(5), SIZE)) == 5
 
 
+@pytest.mark.slow
 def test_workers_that_cannot_start(monkeypatch, capfd):
     monkeypatch.setattr(crews, "_WORKER", "cubecam.pool.worker:absent")
     with (
@@ -385,6 +400,19 @@ def test_what_a_worker_raises(pool):
         pool.capture_many(scene, places(20), SIZE)
     assert "in draw" in str(wrong.value.__cause__)
     assert len(pool.capture_many(boxes(), places(5), SIZE)) == 5
+
+
+def test_the_memory_of_a_call_that_fails_goes_with_its_error(pool):
+    gc.collect()
+    before = len(shared_memory())
+    gc.disable()
+    try:
+        for _ in range(3):
+            with contextlib.suppress(LookupError):
+                pool.capture_scenes(pool_scenes.failing, 40, size=SIZE)
+        eventually(lambda: len(shared_memory()) == before)
+    finally:
+        gc.enable()
 
 
 def test_which_error_is_raised(pool):
@@ -481,6 +509,29 @@ def test_functions_that_workers_cannot_find(pool, monkeypatch):
         pool.capture_scenes(lambda number: cc.Scene(), 3)
     with pytest.raises(TypeError, match="make_scene: expected a callable, got 3"):
         pool.capture_scenes(3, 3)
+
+
+def test_functions_that_travel_by_cloudpickle(pool):
+    pytest.importorskip("cloudpickle")
+    shift = 0.25
+    made = pool.capture_scenes(
+        lambda number: cc.Scene(background=(number * shift, 0, 0)), 4, size=1
+    )
+    assert made.faces[:, 0, 0, 0, 0].tolist() == [0, 0.25, 0.5, 0.75]
+
+
+def test_the_threads_of_all_workers_are_as_many_as_the_cores(pool, monkeypatch):
+    def threads(pool):
+        [process, *_] = crew_of(pool).pids
+        found = Path(f"/proc/{process}/environ").read_bytes().split(b"\0")
+        return [each for each in found if each.startswith(b"LP_NUM_THREADS=")]
+
+    each = len(os.sched_getaffinity(0)) // 2
+    if "LP_NUM_THREADS" not in os.environ:
+        assert threads(pool) == [b"LP_NUM_THREADS=%d" % (each if each > 1 else 0)]
+    monkeypatch.setenv("LP_NUM_THREADS", "3")  # the user's own
+    with cc.Pool(workers=1, device=DEVICE) as own:
+        assert threads(own) == [b"LP_NUM_THREADS=3"]
 
 
 # ---------------------------------------------------------------------- ends
@@ -596,6 +647,7 @@ def script():
         program.communicate()
 
 
+@pytest.mark.slow
 def test_ctrl_c_ends_a_call_and_leaves_nothing(script):
     program, processes = script
     assert len(alive(processes)) == 2
@@ -609,6 +661,7 @@ def test_ctrl_c_ends_a_call_and_leaves_nothing(script):
     assert alive(processes) == []
 
 
+@pytest.mark.slow
 def test_workers_end_when_the_program_is_killed(script):
     program, processes = script
     program.kill()
@@ -616,6 +669,7 @@ def test_workers_end_when_the_program_is_killed(script):
     eventually(lambda: alive(processes) == [])
 
 
+@pytest.mark.slow
 def test_the_end_of_the_interpreter():
     """A pool that is not closed ends with the program, without a word; in a forked process it is the parent's."""
     code = f"""
@@ -642,6 +696,7 @@ def test_the_end_of_the_interpreter():
     assert alive(map(int, done.stdout.split())) == []
 
 
+@pytest.mark.slow
 def test_functions_of_scripts(tmp_path):
     """A function of the program's own script is found by importing the script; one without the guard is told so."""
     script = f"""
@@ -691,6 +746,24 @@ def executor(request):
         yield made
 
 
+class Forgets(concurrent.futures.ThreadPoolExecutor):
+    """Workers that are new to each piece."""
+
+    def submit(self, function, /, *arguments, **options):
+        def forgetting():
+            vars(remote._here).clear()
+            return function(*arguments, **options)
+
+        return super().submit(forgetting)
+
+
+def test_a_worker_of_an_executor_that_lacks_the_scene_gets_it(renderer):
+    with Forgets(1) as executor, cc.Pool(workers=1, executor=executor, device=DEVICE) as pool:
+        batch = pool.capture_scenes(pool_scenes.numbered, 24, size=2)  # eight pieces
+    assert_same(batch, cc.capture_scenes(pool_scenes.numbered, 24, size=2, renderer=renderer))
+
+
+@pytest.mark.slow
 def test_executors(executor, new_renderer):
     scene, cameras = boxes(), [cc.PerspectiveCamera(position=(0, 0, z)) for z in (3, 4, 5)]
     single = new_renderer().capture_many(scene, places(40), SIZE, outputs=["distance"])
@@ -709,3 +782,13 @@ def test_executors(executor, new_renderer):
     with pytest.raises(cc.ContextError, match="the pool is closed"):
         pool.capture_many(scene, places(4), SIZE)
     assert executor.submit(abs, -3).result(30) == 3  # it is the user's own
+
+
+@pytest.mark.slow
+def test_what_the_benchmark_draws():
+    one, two = pool_cubecam.One(captures=9), pool_cubecam.Workers(workers=2, captures=9)
+    assert one.digest() == two.digest()
+    assert two.run()["cpu"] > 0
+    assert two.killed(tries=2, seed=1)["wrong"] == 0
+    one.draws.close()
+    two.draws.close()

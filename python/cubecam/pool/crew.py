@@ -107,7 +107,9 @@ class Crew:
             with self.changed:
                 while number not in running.done:
                     if number in running.errors:  # those before it are done
-                        raise running.errors[number]
+                        running.ended = True
+                        # Its traceback holds this frame, which must not hold it.
+                        raise running.errors.pop(number)
                     self._check_open()
                     self.changed.wait()
                 caught = running.done.pop(number)
