@@ -40,6 +40,9 @@ FORMATS = ("tests/gl/test_formats.py",)
 STENCIL = ("tests/gl/test_stencil.py",)
 STEREO = ("tests/gl/test_stereo.py",)
 INCREMENTAL = ("tests/gl/test_incremental.py",)
+SCENE_HASH = ("tests/gl/test_scene_hash.py",)
+STORES = ("tests/gl/test_stores.py",)
+CLUSTER = ("tests/gl/test_cluster.py",)
 RENDER_TEXTURES = ("tests/gl/test_render_textures.py",)
 SHADOWS = ("tests/gl/test_shadows.py",)
 PLOTS = ("tests/plot",)
@@ -3937,5 +3940,54 @@ MUTATIONS = [
         "place_on_faces(place @ _TABLE[face])",
         "place_on_faces(np.clip(place, -1, 1) @ _TABLE[face])",
         PARALLAX_REFERENCE,
+    ),
+    Mutation(
+        "scene hash: the shapes of arrays do not count",
+        "_scene_hash.py",
+        'f"{little.dtype.str}{array.shape};".encode() + little.tobytes()',
+        "little.tobytes()",
+        SCENE_HASH,
+    ),
+    Mutation(
+        "scene hash: what pickles keep beside the arguments is forgotten",
+        "_scene_hash.py",
+        "return self.of([*parts, *states])",
+        "return self.of(parts)",
+        SCENE_HASH,
+    ),
+    Mutation(
+        "stores: a chunk counts before all of it is written",
+        "cluster/stores.py",
+        "array[rows] = values",
+        'group["drawn"][rows] = True; array[rows] = values',
+        CLUSTER,
+    ),
+    Mutation(
+        "stores: a call goes on with a store of another scene",
+        "cluster/stores.py",
+        "elif there != value:",
+        'elif there != value and name != "scene_hash":',
+        CLUSTER,
+    ),
+    Mutation(
+        "stores: a chunk that comes late is written into another store",
+        "cluster/stores.py",
+        "if any(known.get(name) != value for name, value in job.mark.items()):",
+        "if not known:",
+        CLUSTER,
+    ),
+    Mutation(
+        "stores: an unfinished store is opened without a word",
+        "batches/store.py",
+        "if missing and not incomplete:",
+        "if False:",
+        CLUSTER,
+    ),
+    Mutation(
+        "stores: the last shard is left out",
+        "batches/store.py",
+        "for first in range(0, len(batch), places):",
+        "for first in range(0, len(batch) - places + 1, places):",
+        STORES,
     ),
 ]

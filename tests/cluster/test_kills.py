@@ -138,6 +138,17 @@ def test_a_large_scene(local, tmp_path):
     assert batch[:].faces.tobytes() == want.faces.tobytes()
 
 
+def test_what_a_worker_raises_is_raised(local, tmp_path, monkeypatch):
+    """A full disk, or here a store that another call has replaced, is no lost cluster."""
+    from cubecam.batches.store import group_of
+    from cubecam.cluster import stores
+
+    monkeypatch.setattr(stores, "_mark", lambda plan: {"scene_hash": "another"})
+    monkeypatch.setattr(stores, "_same", lambda place, plan: group_of(place, "r+"))
+    with pytest.raises(ValueError, match="it was replaced in the meantime"):
+        work.write(tmp_path / "a.zarr", client=local)
+
+
 def test_a_client_for_coroutines_is_refused(local, tmp_path, monkeypatch):
     monkeypatch.setattr(distributed.Client, "asynchronous", True)
     with pytest.raises(ValueError, match="client: expected one with asynchronous=False"):

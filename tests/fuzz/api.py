@@ -32,7 +32,7 @@ LEFT_OUT = {"show", "Viewer", "__dlpack__", "__exit__", "devices", "__init_subcl
 FUNCTIONS = [
     "cc.brdf", "cc.fresnel", "cc.reflect", "cc.refract", "cc.schlick", "cc.to_screen", "cc.save_image",
     "cc.save_animation", "cc.load_image", "cc.load_mesh", "cc.load_scene", "cc.load_cubemap", "cc.load_environment",
-    "cc.sample_data", "cc.navigation.yaw", "cc.navigation.pitch", "cc.navigation.walk", "cc.navigation.strafe",
+    "cc.sample_data", "cc.scene_hash", "cc.navigation.yaw", "cc.navigation.pitch", "cc.navigation.walk", "cc.navigation.strafe",
     "cc.navigation.orbit", "cc.navigation.look",
 ]  # fmt: skip
 

@@ -405,6 +405,7 @@ def _by_client(
 
     waiting = iter(todo)
     under_way: set[Any] = set()
+    raised: BaseException | None = None
     try:
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", message="Sending large graph")
@@ -413,6 +414,9 @@ def _by_client(
         under_way |= {submit(number) for number in itertools.islice(waiting, ahead)}
         done = as_completed(list(under_way))
         for future in done:
+            if future.status == "error":  # a worker's own, such as a full disk
+                raised = future.exception().with_traceback(future.traceback())
+                break
             number = future.result()
             under_way.discard(future)
             advance(plan.span(number)[1])
@@ -420,16 +424,16 @@ def _by_client(
                 new = submit(following)
                 under_way.add(new)
                 done.add(new)
-    except (CancelledError, KilledWorker) as error:
-        raise _lost(job, error) from error
-    except OSError as error:
-        if client.status == "running":  # it is a worker's own, such as a full disk
-            raise
+    except (CancelledError, OSError) as error:  # of the connection to the scheduler
         raise _lost(job, error) from error
     finally:
         if under_way and client.status == "running":
             with contextlib.suppress(Exception):
                 client.cancel(list(under_way))
+    if isinstance(raised, KilledWorker):
+        raise _lost(job, raised) from raised
+    if raised is not None:
+        raise raised
 
 
 def _lost(job: _Job, error: BaseException) -> Error:
