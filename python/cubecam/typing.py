@@ -182,3 +182,4 @@ class RenderOptions(TypedDict, total=False):
     effects: Iterable[ImageEffect]
     depth_format: DepthFormat | None
     screen_reflections: bool
+    max_lod_error: SupportsFloat | SupportsIndex

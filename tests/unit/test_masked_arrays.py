@@ -248,12 +248,14 @@ def use(name, argument, annotation, convert, renderer, tmp_path):
     """Call what the name says, with the argument made by `convert`; set the attribute if there is no argument."""
     key = argument or name.rpartition(".")[2]
     values = OF_FUNCTIONS.get((name, key))
-    if values is None and "Mapping" not in annotation and key not in ("frames", "pictures"):
+    if values is None and "Mapping" not in annotation and key not in ("frames", "pictures", "levels"):
         ends = [value for end, value in ENDS.items() if key.endswith(end)]
         values = VALUES[key] if key in VALUES else ends[0]
     value: Any
     if key in ("uniforms", "vectors"):
         value = {"a": convert([1.0, 0.5, 0.25])}
+    elif key == "levels":
+        value = [(convert([[0, 1, 2]]), 0.5)]
     elif key == "textures":
         value = {"a": convert(PICTURE)}
     elif key in ("frames", "pictures"):
