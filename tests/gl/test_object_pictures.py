@@ -460,7 +460,7 @@ def test_a_thousand_nodes_are_bounded():
     scene = crowd(1000, names="<&>" * 300)
     html = scene._repr_html_()
     assert len(html.encode()) < 200_000
-    assert html.count("<img") <= scenes.MOST_BALLS + 2
+    assert html.count("<img") == scenes.MOST_BALLS + 7  # the scene, and the faces of its background
     text = " ".join(Page(html).text)
     assert "1,000 nodes" in text
     assert "… and 950 more" in text

@@ -23,6 +23,7 @@ class Files:
     def __init__(self, target: Path) -> None:
         self._target = target
         self._known: dict[bytes, Path] = {}
+        self._pictures: dict[tuple[tuple[int, ...], bytes], str] = {}
         self._counts: dict[str, int] = {}
         self.contents: dict[Path, bytes] = {}
 
@@ -39,7 +40,14 @@ class Files:
 
     def picture(self, pixels: Array) -> str:
         """Note a picture (H, W, C) of linear floats as an EXR file, and return its path."""
-        return self.add(formats.encode(Path("picture.exr"), pixels.astype(np.float32)), ".exr")
+        found = pixels.astype(np.float32)
+        key = (
+            found.shape,
+            found.tobytes(),
+        )  # the bytes of a file tell the second in which it was made
+        if key not in self._pictures:
+            self._pictures[key] = self.add(formats.encode(Path("picture.exr"), found), ".exr")
+        return self._pictures[key]
 
 
 class Textures:
