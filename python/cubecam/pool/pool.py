@@ -134,7 +134,8 @@ class Pool:
         self._kept = PayloadKeeper()
         self._crew: Crew | Remote
         if executor is None:
-            self._crew = Crew(self._workers, options, _environment(self._workers))
+            kept = self._workers * cache_bytes
+            self._crew = Crew(self._workers, options, _environment(self._workers), kept)
         else:
             self._workers = count or getattr(executor, "_max_workers", None) or self._workers
             self._crew = Remote(executor, options, 2 * self._workers)
