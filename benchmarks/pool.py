@@ -167,9 +167,13 @@ def memory_marks(count: int) -> Section:
     section.marks = [
         Mark(what + "the caller", grown[0], 1.0, unit="MiB more"),
         Mark(what + "the workers", max(grown[1:]), 1.0, unit="MiB more"),
-        Mark("mappings of shared memory that are left", found["mappings"], 0, unit=""),
+        Mark("mappings of shared memory that a closed pool leaves", found["mappings"], 0, unit=""),
         Mark("new files in /dev/shm", len(found["files"]), None, unit="", note="of any program"),
     ]
+    section.notes.append(
+        "MiB of caller and workers, at most, in each fifth: "
+        + "; ".join(" ".join(f"{size:.1f}" for size in fifth) for fifth in memory)
+    )
     return section
 
 
@@ -180,6 +184,7 @@ def killed_marks(tries: int, captures: int) -> Section:
         program = _started(stack, TWO, workers=2, captures=captures)
         found = _call(program, "killed", tries=tries, seed=20)
     section.marks = [Mark("calls that raised or had other bytes", found["wrong"], 0, unit="")]
+    section.notes.append(f"{found['while drawing']} of the {tries} kills met a worker that drew")
     return section
 
 

@@ -8,6 +8,7 @@ import random
 import signal
 import threading
 import time
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -23,9 +24,15 @@ BOX = cc.Mesh.box(1)
 
 
 class _Draws:
-    """Captures of a field; `first` and `count` choose some of them."""
+    """Captures of a field; `first` and `count` choose some of them.
+
+    Linux may share the cores among sessions first, and among the processes of each then (sched_autogroup). The workers
+    of a pool have sessions of their own, so all others get one, too.
+    """
 
     def __init__(self, captures: int, first: int = 0, count: int = 0, **options: Any) -> None:
+        with suppress(PermissionError):  # it leads one
+            os.setsid()
         self.plan = field.Field(probes=captures, format="rgba32f", **options)
         self.scene = make_scene(self.plan)
         self.positions = self.plan.positions(1)[first : first + (count or captures)]
@@ -84,14 +91,23 @@ class Workers(_Draws):
         return time.process_time() + sum(_cpu(process) for process in processes(self.draws))
 
     def killed(self, tries: int, seed: int) -> dict[str, Any]:
-        """Kill a worker at a random time of each of many calls; how many calls had other bytes or raised."""
+        """Kill a worker at a random time of each of many calls.
+
+        Gives how many calls had other bytes or raised, and how many kills ended a worker that was drawing.
+        """
         rng = random.Random(seed)
         wanted, found, seconds = self.digest(), [], self.run()["wall"]
-        before = set(processes(self.draws))
+        drawing: list[bool] = []
+
+        def kill(victim: int) -> None:
+            seats = self.draws._crew._seats
+            drawing.append(any(s.draws and s.process and s.process.pid == victim for s in seats))
+            os.kill(victim, signal.SIGKILL)
+
         for _ in range(tries):
-            after = rng.uniform(0, seconds)
-            victim = rng.choice(processes(self.draws))
-            timer = threading.Timer(after, os.kill, (victim, signal.SIGKILL))
+            # One that died after its last piece of a call is replaced by the next call alone.
+            victim = rng.choice([each for each in processes(self.draws) if _lives(each)])
+            timer = threading.Timer(rng.uniform(0, seconds), kill, (victim,))
             timer.start()
             try:
                 found.append(self.digest() == wanted)
@@ -99,14 +115,17 @@ class Workers(_Draws):
                 found.append(False)
                 print(error)
             timer.join()
-        replaced = len(set(processes(self.draws)) - before)
-        return {"wrong": found.count(False), "replaced": replaced}
+        return {"wrong": found.count(False), "while drawing": drawing.count(True)}
 
 
 def processes(pool: cc.Pool) -> list[int]:
     """The workers of a pool."""
     found: list[int] = pool._crew.pids  # type: ignore[union-attr]
     return found
+
+
+def _lives(process: int) -> bool:
+    return "State:\tZ" not in Path(f"/proc/{process}/status").read_text()
 
 
 def _cpu(process: int) -> float:
@@ -148,10 +167,11 @@ class Scenes:
                 fifth[:] = map(max, fifth, now)
                 del running  # it holds the result
             time.sleep(0.05)
+        drawing.join()
+        self.pool.close()  # which keeps memory for later calls
         lines = Path("/proc/self/maps").read_text().splitlines()
         left = sum("memfd:cubecam" in line for line in lines)
         new = [path.name for path in set(Path("/dev/shm").iterdir()) - names]
-        self.pool.close()
         return {"memory": found, "mappings": left, "files": new}
 
 
