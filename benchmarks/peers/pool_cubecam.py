@@ -8,6 +8,7 @@ import random
 import signal
 import threading
 import time
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -23,9 +24,15 @@ BOX = cc.Mesh.box(1)
 
 
 class _Draws:
-    """Captures of a field; `first` and `count` choose some of them."""
+    """Captures of a field; `first` and `count` choose some of them.
+
+    Linux may share the cores among sessions first, and among the processes of each then (sched_autogroup). The workers
+    of a pool have sessions of their own, so all others get one, too.
+    """
 
     def __init__(self, captures: int, first: int = 0, count: int = 0, **options: Any) -> None:
+        with suppress(PermissionError):  # it leads one
+            os.setsid()
         self.plan = field.Field(probes=captures, format="rgba32f", **options)
         self.scene = make_scene(self.plan)
         self.positions = self.plan.positions(1)[first : first + (count or captures)]

@@ -13,6 +13,7 @@ import sys
 import textwrap
 import threading
 import time
+import weakref
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +22,7 @@ import pytest
 import cubecam as cc
 from benchmarks.peers import pool_cubecam
 from cubecam.pool import crew as crews
-from cubecam.pool import remote
+from cubecam.pool import memory, remote
 from tests.gl import pool_scenes
 from tests.gl.full_world import full_world
 from tests.helpers import DEVICE, run_python
@@ -274,18 +275,65 @@ def test_workers_forget_what_nobody_needs(one_worker):
     assert found[-1] - found[1] < 3 * 16  # four more would be 64, and again as much for the driver
 
 
-def test_a_result_is_shared_memory_and_goes_with_its_arrays(pool):
+def test_a_result_is_shared_memory_and_goes_with_its_arrays():
+    gc.collect()
     before = len(shared_memory())
-    batch = pool.capture_many(boxes(), places(20), SIZE, outputs=["distance"])
-    assert len(shared_memory()) == before + 1  # one mapping, no descriptor
-    distance = batch.distance
-    del batch
-    assert len(shared_memory()) == before + 1
-    assert np.isfinite(distance).any()
-    del distance
-    assert len(shared_memory()) == before
-    for process in crew_of(pool).pids:
-        eventually(lambda: "memfd:cubecam" not in Path(f"/proc/{process}/maps").read_text())  # noqa: B023
+    with cc.Pool(workers=1, device=DEVICE, cache_bytes=0) as pool:
+        batch = pool.capture_many(boxes(), places(20), SIZE, outputs=["distance"])
+        assert len(shared_memory()) == before + 1  # one mapping, no descriptor
+        distance = batch.distance
+        del batch
+        assert len(shared_memory()) == before + 1
+        assert np.isfinite(distance).any()
+        del distance
+        assert len(shared_memory()) == before
+        maps = Path(f"/proc/{crew_of(pool).pids[0]}/maps")
+        eventually(lambda: "memfd:cubecam" not in maps.read_text())
+
+
+def test_the_memory_of_a_result_that_is_gone_serves_the_next_one(pool, renderer):
+    def drawn(number):
+        return pool.capture_many(boxes(number), places(21), SIZE)
+
+    def where(batch):
+        return batch.faces.ctypes.data
+
+    first = drawn(1)
+    place, numbers = where(first), first.faces.tobytes()
+    second = drawn(2)
+    assert where(second) != place
+    assert first.faces.tobytes() == numbers
+    view = first.faces[3:4]
+    del first
+    third = drawn(3)
+    assert where(third) != place
+    del view
+    fourth = drawn(4)
+    assert where(fourth) == place
+    for number, batch in ((2, second), (3, third), (4, fourth)):
+        assert_same(batch, renderer.capture_many(boxes(number), places(21), SIZE))
+    del fourth
+    before = len(shared_memory())
+    for _ in range(10):
+        pool.capture_many(boxes(), places(2), SIZE)
+    assert (
+        len(shared_memory()) <= before
+    )  # that of the fourth is gone; one of the last size is there
+
+
+def test_memory_into_which_workers_may_still_write_serves_nobody(pool, renderer):
+    scene = boxes()
+    single = renderer.capture_many(scene, places(90), SIZE)
+    for _ in range(10):
+        cubes = pool.iter_captures(scene, places(90), SIZE)
+        next(cubes)
+        running = crew_of(pool)._calls[-1]
+        number = running.memory.number
+        whole = running.is_whole
+        del running
+        cubes.close()
+        assert crew_of(pool)._store.has(number) == whole
+        assert_same(pool.capture_many(scene, places(90), SIZE), single)
 
 
 def test_iter_captures_never_holds_more_than_a_few_pieces(pool):
@@ -402,17 +450,24 @@ def test_what_a_worker_raises(pool):
     assert len(pool.capture_many(boxes(), places(5), SIZE)) == 5
 
 
-def test_the_memory_of_a_call_that_fails_goes_with_its_error(pool):
-    gc.collect()
-    before = len(shared_memory())
+def test_the_memory_of_a_call_that_fails_goes_with_its_error(pool, monkeypatch):
+    made = []
+    original = memory.Memory.__init__
+
+    def noted(new, size):
+        original(new, size)
+        made.append(weakref.ref(new))
+
+    monkeypatch.setattr(memory.Memory, "__init__", noted)
     gc.disable()
     try:
         for _ in range(3):
             with contextlib.suppress(LookupError):
-                pool.capture_scenes(pool_scenes.failing, 40, size=SIZE)
-        eventually(lambda: len(shared_memory()) == before)
+                pool.capture_scenes(pool_scenes.failing, 43, size=SIZE)
+        eventually(lambda: not any(each() for each in made))
     finally:
         gc.enable()
+    assert len(made) == 3
 
 
 def test_which_error_is_raised(pool):

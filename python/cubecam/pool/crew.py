@@ -18,7 +18,7 @@ from .._core import ContextError, Error
 from .._processes import Process, ending_of, leave_signals_to_others
 from .._warnings import warn_at
 from .calls import Call, Piece
-from .memory import Rows
+from .memory import MemoryStore
 from .payload import Payload
 from .worker import Answer
 
@@ -36,10 +36,9 @@ _TRIES = 3
 class _Running:
     """A call that is not done."""
 
-    def __init__(self, call: Call, number: int) -> None:
-        self.call, self.number = call, number
-        self.rows = Rows(call.layout, call.rows)
-        call.arrays = self.rows.arrays
+    def __init__(self, call: Call, store: MemoryStore) -> None:
+        self.call = call
+        self.memory, call.arrays = store.take(call.layout, call.rows)
         self.next = 0  # the piece that is given out next
         self.taken = 0  # pieces that the caller is done with
         self.under_way = 0
@@ -47,20 +46,30 @@ class _Running:
         self.errors: dict[int, BaseException] = {}
         self.ended = False
 
+    @property
+    def is_whole(self) -> bool:
+        """Whether all is drawn, so that no worker will write into the memory any more."""
+        return self.next == self.call.pieces and not (self.under_way or self.errors or self.ended)
+
     def has_piece(self) -> bool:
         most = min(self.call.pieces, self.taken + self.call.window)
         return self.next < most and not self.ended and not self.errors
 
 
 class Crew:
-    """Worker processes; `options` are those of their renderers."""
+    """Worker processes; `options` are those of their renderers.
 
-    def __init__(self, workers: int, options: dict[str, Any], environment: dict[str, str]) -> None:
+    `kept_bytes` is how much memory of results that are gone serves later ones.
+    """
+
+    def __init__(
+        self, workers: int, options: dict[str, Any], environment: dict[str, str], kept_bytes: int
+    ) -> None:
         self.options, self.environment = options, environment
         self.changed = threading.Condition()
         self.closed: str | None = None  # why
         self._calls: list[_Running] = []
-        self._numbers = 0
+        self._store = MemoryStore(kept_bytes)
         self._kept: str | None = None  # the token of the payload that may be used again
         self._seats: list[_Seat] = []
         _crews.add(self)
@@ -86,8 +95,7 @@ class Crew:
         """
         with self.changed:
             self._check_open()
-            self._numbers += 1
-            running = _Running(call, self._numbers)
+            running = _Running(call, self._store)
         at_once = False
         try:
             with self.changed:
@@ -122,11 +130,12 @@ class Crew:
 
     def _end(self, running: _Running, at_once: bool) -> None:
         with self.changed:
+            whole = running.is_whole and not at_once
             running.ended = True
             for seat in self._seats:
                 if at_once and seat.draws is running and seat.process is not None:
                     seat.process.kill()
-            running.rows.close()
+            self._store.done(running.memory, whole)
             if running in self._calls:
                 self._calls.remove(running)
             if running.call.payload.reusable:
@@ -144,6 +153,7 @@ class Crew:
         with self.changed:
             if self.closed is None:
                 self.closed = CLOSED
+            self._store.clear()
             self.changed.notify_all()
             for seat in self._seats:
                 seat.kill()
@@ -163,6 +173,7 @@ class Crew:
             if seat.process is not None:
                 seat.process.abandon()
         self._seats = []
+        self._store.clear()
 
     # For seats, which hold the condition.
 
@@ -170,9 +181,9 @@ class Crew:
         """Say whether a payload may be used again."""
         return token == self._kept or any(token == each.call.payload.token for each in self._calls)
 
-    def lives(self, number: int) -> bool:
-        """Say whether a call is not ended."""
-        return any(each.number == number for each in self._calls)
+    def uses(self, number: int) -> bool:
+        """Say whether memory is that of a call, or may be that of a later one."""
+        return self._store.has(number) or any(each.memory.number == number for each in self._calls)
 
     def next_piece(self) -> tuple[_Running, Piece] | None:
         """Give out a piece."""
@@ -195,7 +206,7 @@ class _Seat:
         self.process: Process | None = None
         self.draws: _Running | None = None
         self._loaded: set[str] = set()  # tokens of payloads
-        self._opened: set[int] = set()  # numbers of calls
+        self._opened: set[int] = set()  # numbers of memory
         self._ready = False  # whether the process has begun to read
         self.thread = threading.Thread(target=self._work, daemon=True, name="cubecam pool")
         self._start()
@@ -253,7 +264,7 @@ class _Seat:
                     if crew.closed is not None:
                         return None
                     old = [each for each in self._loaded if not crew.needs(each)]
-                    ended = [each for each in self._opened if not crew.lives(each)]
+                    ended = [each for each in self._opened if not crew.uses(each)]
                     given = crew.next_piece()
                     if given is not None or old or ended:
                         break
@@ -306,15 +317,13 @@ class _Seat:
         with self._crew.changed:  # so that the descriptor is not closed meanwhile
             if running.ended:
                 return False
-            if running.number not in self._opened:
-                self._opened.add(running.number)
-                rows = running.rows
-                self._send(
-                    "open", running.number, rows.layout, rows.count, descriptors=(rows.descriptor,)
-                )
+            memory = running.memory
+            if memory.number not in self._opened:
+                self._opened.add(memory.number)
+                self._send("open", memory.number, memory.size, descriptors=(memory.descriptor,))
         work = call.work.part(piece.first, piece.count)
-        row = call.row(piece)
-        self._send("draw", running.number, call.payload.token, work, row, piece.count)
+        place = (memory.number, call.layout, call.rows, call.row(piece), piece.count)
+        self._send("draw", *place, call.payload.token, work)
         return True
 
     def _load(self, payload: Payload) -> None:

@@ -78,8 +78,10 @@ class Pool:
         has a renderer. Results come back as arrays and are copied, since others may not share memory with this process;
         dead workers are the executor's own matter. It stays open when the pool is closed.
     device, layered, cache_bytes, debug, trust_shaders
-        As for `Renderer`, for each worker. This process has such a renderer, too, which checks arguments and draws
-        nothing; a software one if an `executor` draws and this machine lacks the device.
+        As for `Renderer`, for each worker; `cache_bytes` times the workers is also how much memory of results that are
+        gone is kept for later ones of the same size, until eight calls did not use it. This process has such a
+        renderer, too, which checks arguments and draws nothing; a software one if an `executor` draws and this machine
+        lacks the device.
 
     Raises
     ------
@@ -134,7 +136,8 @@ class Pool:
         self._kept = PayloadKeeper()
         self._crew: Crew | Remote
         if executor is None:
-            self._crew = Crew(self._workers, options, _environment(self._workers))
+            kept = self._workers * cache_bytes
+            self._crew = Crew(self._workers, options, _environment(self._workers), kept)
         else:
             self._workers = count or getattr(executor, "_max_workers", None) or self._workers
             self._crew = Remote(executor, options, 2 * self._workers)

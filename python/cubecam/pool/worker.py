@@ -16,7 +16,7 @@ from typing import Any
 
 from .._core import Renderer
 from .._processes import Channel
-from .memory import Arrays, Layout, mapped
+from .memory import Arrays, Bytes, arranged, mapped
 from .payload import load
 from .work import Work
 
@@ -125,7 +125,7 @@ def serve(channel: Channel) -> None:
     channel.send(b"ready")
     options, _ = messages.get()
     desk = Desk(pickle.loads(options))
-    memory: dict[int, Arrays] = {}
+    memory: dict[int, Bytes] = {}
     while True:
         message, descriptors = messages.get()
         kind, *rest = pickle.loads(message)
@@ -137,12 +137,12 @@ def serve(channel: Channel) -> None:
         elif kind == "forget":
             desk.things.pop(rest[0], None)
         elif kind == "open":
-            memory[rest[0]] = _map(descriptors[0], *rest[1:])
+            memory[rest[0]] = _map(descriptors[0], rest[1])
         elif kind == "close":
             memory.pop(rest[0], None)
         else:
-            call, token, work, row, count = rest
-            arrays = [array[row : row + count] for array in memory[call]]
+            number, layout, rows, row, count, token, work = rest
+            arrays = [array[row : row + count] for array in arranged(memory[number], layout, rows)]
             answer = answered(lambda: desk.draw(token, work, arrays))  # noqa: B023
             del arrays, work
             for stream in (sys.stdout, sys.stderr):  # the process may be killed later
@@ -157,8 +157,8 @@ def _read(channel: Channel, messages: queue.SimpleQueue[Message]) -> None:
     os._exit(0)
 
 
-def _map(descriptor: int, layout: Layout, count: int) -> Arrays:
+def _map(descriptor: int, size: int) -> Bytes:
     try:
-        return mapped(descriptor, layout, count)
+        return mapped(descriptor, size)
     finally:
         os.close(descriptor)
