@@ -86,7 +86,7 @@ def test_each_level_has_its_share_of_the_triangles(ratio):
         len(mesh.indices),
         *(len(indices) for indices, _ in mesh.with_levels(ratio=ratio).levels),
     ]
-    for before, now in itertools.pairwise(counts):
+    for before, now in itertools.pairwise(count for count in counts if count > 100):
         assert 0.97 * ratio * before - 4 <= now <= ratio * before
 
 
