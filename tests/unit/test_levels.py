@@ -86,18 +86,27 @@ def test_each_level_has_its_share_of_the_triangles(ratio):
         len(mesh.indices),
         *(len(indices) for indices, _ in mesh.with_levels(ratio=ratio).levels),
     ]
-    for before, now in itertools.pairwise(counts):
+    for before, now in itertools.pairwise(count for count in counts if count > 100):
         assert 0.97 * ratio * before - 4 <= now <= ratio * before
 
 
-def test_a_flat_sheet_keeps_its_border_and_has_no_error():
+@pytest.mark.parametrize("moved", [0, 0.45])
+def test_a_flat_sheet_keeps_its_border_and_has_no_error(rng, moved):
+    """Also where the vertices inside are not in rows, so that triangles are near to turning over."""
     sheet = grid(12, lambda x, y: 0 * x)
+    positions = np.array(sheet.positions)
+    inside = ((positions[:, :2] > 0.01) & (positions[:, :2] < 0.99)).all(axis=1)
+    positions[inside, :2] += rng.uniform(-moved, moved, (inside.sum(), 2)) / 12
+    sheet = cc.Mesh(positions, sheet.indices, normals=[(0, 0, 1)] * len(positions))
+    a, b, c = np.moveaxis(corners(sheet, sheet.indices), 1, 0)
+    whole = (np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2).sum()
     levels = sheet.with_levels().levels
     assert len(levels[-1][0]) < 0.15 * len(sheet.indices)
     for indices, error in levels:
         a, b, c = np.moveaxis(corners(sheet, indices), 1, 0)
         areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
-        assert areas.sum() == pytest.approx(1, abs=1e-6)  # no folds, no gaps
+        assert areas.sum() <= whole + 1e-6  # no new folds
+        assert (np.cross(b - a, c - a)[:, 2] / 2).sum() == pytest.approx(1, abs=1e-6)  # no gaps
         assert error < 2e-4
 
 

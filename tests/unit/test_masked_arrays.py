@@ -248,7 +248,11 @@ def use(name, argument, annotation, convert, renderer, tmp_path):
     """Call what the name says, with the argument made by `convert`; set the attribute if there is no argument."""
     key = argument or name.rpartition(".")[2]
     values = OF_FUNCTIONS.get((name, key))
-    if values is None and "Mapping" not in annotation and key not in ("frames", "pictures", "levels"):
+    if (
+        values is None
+        and "Mapping" not in annotation
+        and key not in ("frames", "pictures", "levels")
+    ):
         ends = [value for end, value in ENDS.items() if key.endswith(end)]
         values = VALUES[key] if key in VALUES else ends[0]
     value: Any
