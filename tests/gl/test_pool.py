@@ -691,6 +691,7 @@ def script():
         text=True,
         env={**os.environ, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)},
     )
+    processes: list[int] = []
     try:
         assert program.stdout is not None
         assert program.stderr is not None
@@ -700,6 +701,8 @@ def script():
         yield program, processes
     finally:
         program.kill()
+        for process in alive(processes):  # of a test that fails; they hold the pipes
+            os.kill(process, signal.SIGKILL)
         program.communicate()
 
 
