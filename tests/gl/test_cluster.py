@@ -360,7 +360,7 @@ def test_a_worker_keeps_a_few_scenes_and_one_renderer(scene, want):
     plan = plan_of(
         scene, PLACES, None, (), 4,
         {"size": 8, "near": 0.05, "far": 1000.0, "outputs": ("id",), "format": "rgba16f", "samples": 1, "eye": None,
-         "depth_format": "depth_component32f", "depth_order": "nearest"},
+         "depth_format": "depth_component32f", "depth_order": "nearest", "max_lod_error": 0.0},
     )  # fmt: skip
     for number in range(9):
         worker.draw(packed[number % 3], f"scene {number}", plan.part(0), plan.layout)

@@ -430,7 +430,7 @@ def test_the_exceptions(renderer):
     assert saved(renderer, far_scene(cc.ShaderMaterial(fragment=counting))) == 0
 
 
-def test_what_casts_and_receives_shadows_is_exact(renderer):
+def test_what_shadows_fall_on_and_come_from_is_exact(renderer):
     scene = far_scene(cc.PhongMaterial())
     scene.add(cc.PointLight((5, 5, -25), shadow=cc.Shadow(size=16)))
     ball = scene.nodes[0]
