@@ -1,5 +1,6 @@
 """Small things that many tests share."""
 
+import contextlib
 import copy
 import functools
 import importlib.util
@@ -105,6 +106,19 @@ def least_cpu_seconds(call, enough, tries=5):
         if least <= enough:
             break
     return least, result
+
+
+def open_files(*kinds):
+    """Return what open files of this process are, of those whose names begin so, such as "pipe:" or "socket:".
+
+    All of them are not a measure: what earlier tests left to the garbage collector may open or close some meanwhile.
+    """
+    found = set()
+    for file in Path("/proc/self/fd").iterdir():
+        with contextlib.suppress(FileNotFoundError):  # the listing's own
+            if (target := str(file.readlink())).startswith(kinds):
+                found.add(target)
+    return found
 
 
 def need_no_sanitizer(reason):

@@ -26,7 +26,7 @@ from cubecam.pool import crew as crews
 from cubecam.pool import memory, remote
 from tests.gl import pool_scenes
 from tests.gl.full_world import full_world
-from tests.helpers import DEVICE, run_python
+from tests.helpers import DEVICE, open_files, run_python
 
 SIZE = 8
 
@@ -567,6 +567,27 @@ def test_functions_that_workers_cannot_find(pool, monkeypatch):
         pool.capture_scenes(3, 3)
 
 
+def test_functions_of_a_session_are_told_from_those_of_a_script():
+    """Also where they are part of something else, which has no module."""
+    made = run_python(
+        f"""
+import functools, sys
+import cubecam as cc
+
+def make(color, number):
+    return cc.Scene(background=color)
+
+sys.modules["cloudpickle"] = None
+with cc.Pool(workers=1, device={DEVICE!r}) as pool:
+    try:
+        pool.capture_scenes(functools.partial(make, (0, 1, 0)), 2, size=1)
+    except TypeError as error:
+        print(error)
+"""
+    )
+    assert "functions of a notebook or an interactive session work, too" in made.stdout
+
+
 def test_functions_that_travel_by_cloudpickle(pool):
     pytest.importorskip("cloudpickle")
     shift = 0.25
@@ -595,7 +616,7 @@ def test_the_threads_of_all_workers_are_as_many_as_the_cores(pool, monkeypatch):
 
 def test_nothing_is_left_of_a_pool():
     gc.collect()
-    before, files = children(), len(list(Path("/proc/self/fd").iterdir()))
+    before, files = children(), open_files("pipe:", "socket:", "/memfd:cubecam")
     pool = cc.Pool(workers=2, device=DEVICE)
     assert len(children() - before) >= 2
     batch = pool.capture_many(boxes(), places(4), SIZE)
@@ -613,7 +634,8 @@ def test_nothing_is_left_of_a_pool():
     del lost
     gc.collect()
     assert children() <= before
-    assert len(list(Path("/proc/self/fd").iterdir())) <= files
+    del batch
+    assert open_files("pipe:", "socket:", "/memfd:cubecam") <= files
     assert not [
         thread
         for thread in threading.enumerate()

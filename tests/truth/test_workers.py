@@ -1,6 +1,5 @@
 """The processes that draw: how they begin, what their failures leave behind, and in which programs they work."""
 
-import contextlib
 import signal
 import subprocess
 import sys
@@ -13,7 +12,7 @@ import pytest
 import cubecam as cc
 from cubecam._progress import bar
 from cubecam.truth import drawing, sums, work, workers
-from tests.helpers import run_python
+from tests.helpers import open_files, run_python
 
 RED = cc.Scene(background=(1, 0, 0))
 
@@ -23,17 +22,9 @@ def rendered(**options):
 
 
 def pipes_and_children():
-    """The pipes that this process holds, and the processes that it started.
-
-    Other files do not count: what earlier tests left to the garbage collector may open or close some meanwhile.
-    """
-    pipes = set()
-    for file in Path("/proc/self/fd").iterdir():
-        with contextlib.suppress(FileNotFoundError):  # the listing's own
-            if (target := str(file.readlink())).startswith("pipe:"):
-                pipes.add(target)
+    """The pipes that this process holds, and the processes that it started."""
     task = f"/proc/self/task/{threading.get_native_id()}/children"
-    return pipes, Path(task).read_text().split()
+    return open_files("pipe:", "socket:"), Path(task).read_text().split()
 
 
 def test_processes_that_cannot_all_begin_leave_none(monkeypatch):

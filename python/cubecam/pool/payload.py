@@ -70,16 +70,21 @@ def packed_function(function: Callable[..., Any], name: str) -> Payload:
         If the other process could not find the function.
     """
     reason = ""
-    in_script = getattr(function, "__module__", None) == "__main__"
-    if not in_script or _script():
+    in_session = not _script() and getattr(function, "__module__", None) == "__main__"
+    if not in_session:
         try:
-            return Payload(_dumped(function, pickle.dump))
+            data = _dumped(function, pickle.dump)
         except Exception as error:
             reason = f" ({error})"
+        else:
+            # What a partial or an object holds may be of a notebook, too.
+            in_session = not _script() and b"__main__" in bytes(data)
+            if not in_session:
+                return Payload(data)
     try:
         import cloudpickle
     except ImportError:
-        where = "a notebook or an interactive session" if in_script and not _script() else "it"
+        where = "a notebook or an interactive session" if in_session else "it"
         raise TypeError(
             f"{name}: expected a function at the top of a module or script, which other processes "
             f"can import, got {text_of(function)}{reason}; with the package cloudpickle installed, "
