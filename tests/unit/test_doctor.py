@@ -728,7 +728,7 @@ def test_extras_are_those_of_the_project():
         if " = [" in line and line[0].isalpha()
     }
     of_developers = {
-        "test", "browser", "light", "bench", "peers", "docs", "lowest", "dev", "packages", "conda",
+        "test", "browser", "light", "bench", "peers", "docs", "lowest", "dev", "packages", "conda", "torch", "deploy",
     }  # fmt: skip
     assert declared - of_developers == set(EXTRAS)
     assert {finding.status for finding in check_extras()} <= {"ok", "note"}

@@ -9,6 +9,7 @@ import contextlib
 import errno
 import itertools
 import os
+import sys
 import time
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -223,13 +224,8 @@ def _mark(plan: Plan) -> dict[str, Any]:
 
 
 def _check_client(client: Any) -> None:
-    try:
-        from distributed import Client
-    except ImportError as error:
-        raise ImportError(
-            'client=: expected the packages of pip install "cubecam[cluster]"'
-        ) from error
-    if not isinstance(client, Client):
+    distributed = sys.modules.get("distributed")  # who has a Client has imported it
+    if distributed is None or not isinstance(client, distributed.Client):
         raise TypeError(f"client: expected a Client of distributed or None, got {text_of(client)}")
     if client.asynchronous:
         raise ValueError("client: expected one with asynchronous=False, got one for coroutines")
