@@ -18,8 +18,6 @@ results' memory is new for each frame, or that of the frame before.
 
 from __future__ import annotations
 
-import argparse
-import json
 import statistics
 import sys
 import tempfile
@@ -29,11 +27,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rich.console import Console
 
-from . import machine
-from .processes import CpuWorker, WorkerError
-from .results import Mark, Section, print_sections
+from .command import command, measured
+from .processes import CpuWorker
+from .results import Mark, Section
 
 PROBES, GROUP = 400, 32
 BATCH, SINGLE, MODERNGL = (
@@ -215,38 +212,14 @@ def _started(stack: ExitStack, name: str, options: dict[str, Any]) -> CpuWorker:
 def run(quick: bool) -> list[Section]:
     """All marks of batches."""
     rounds = 3 if quick else -(-PROBES // (2 * GROUP)) + 4
-    sections = []
     measures = [
         partial(field_marks, rounds),
         partial(level_marks, rounds),
         partial(empty_marks, rounds),
         partial(memory_marks, 1000 if quick else 10_000),
     ]
-    for measure in measures:
-        try:
-            sections.append(measure())
-        except WorkerError as error:
-            sections.append(Section("batches", "batches", notes=[f"left out: {error}"]))
-            sections[-1].failed = True
-    return sections
-
-
-def main(arguments: list[str]) -> int:
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.batches")
-    parser.add_argument("--quick", action="store_true", help="fewer rounds: noisier")
-    parser.add_argument("--json", type=Path, help="where the figures go, besides the table")
-    options = parser.parse_args(arguments)
-    console = Console()
-    if not console.is_terminal:
-        console.width = 120
-    sections = run(options.quick)
-    print_sections(console, sections)
-    if options.json:
-        data = {"machine": machine.describe(), "sections": [part.as_json() for part in sections]}
-        options.json.parent.mkdir(parents=True, exist_ok=True)
-        options.json.write_text(json.dumps(data, indent=2) + "\n")
-    return int(any(section.failed for section in sections))
+    return measured("batches", measures)
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(command("batches", run, sys.argv[1:]))

@@ -17,8 +17,6 @@ own, with the same number of threads.
 
 from __future__ import annotations
 
-import argparse
-import json
 import os
 import resource
 import statistics
@@ -27,14 +25,11 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from functools import partial
-from pathlib import Path
 from typing import Any
 
-from rich.console import Console
-
-from . import machine
-from .processes import ROOT, CpuWorker, WorkerError
-from .results import Mark, Section, print_sections
+from .command import command, measured
+from .processes import ROOT, CpuWorker
+from .results import Mark, Section
 
 CAPTURES = 600
 ONE, TWO, SCENES = (
@@ -197,32 +192,8 @@ def run(quick: bool) -> list[Section]:
         partial(memory_marks, 1000 if quick else 10_000),
         partial(killed_marks, 5 if quick else 30, 100),
     ]
-    sections = []
-    for measure in measures:
-        try:
-            sections.append(measure())
-        except WorkerError as error:
-            sections.append(Section("pool", "pool", notes=[f"left out: {error}"]))
-            sections[-1].failed = True
-    return sections
-
-
-def main(arguments: list[str]) -> int:
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.pool")
-    parser.add_argument("--quick", action="store_true", help="fewer rounds: noisier")
-    parser.add_argument("--json", type=Path, help="where the figures go, besides the table")
-    options = parser.parse_args(arguments)
-    console = Console()
-    if not console.is_terminal:
-        console.width = 120
-    sections = run(options.quick)
-    print_sections(console, sections)
-    if options.json:
-        data = {"machine": machine.describe(), "sections": [part.as_json() for part in sections]}
-        options.json.parent.mkdir(parents=True, exist_ok=True)
-        options.json.write_text(json.dumps(data, indent=2) + "\n")
-    return int(any(section.failed for section in sections))
+    return measured("pool", measures)
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(command("pool", run, sys.argv[1:]))
