@@ -19,7 +19,7 @@ from cubecam.cluster import stores, worker
 from cubecam.cluster.plan import plan_of
 from tests.helpers import DEVICE
 
-zarr = pytest.importorskip("zarr", minversion="3.1.3")  # Python 3.10 has only zarr 2
+zarr = pytest.importorskip("zarr", minversion="3.1.6")  # Python 3.10 has only zarr 2
 
 PLACES = np.random.default_rng(0).uniform(-3, 3, (11, 3))
 TURNS = np.random.default_rng(1).normal(size=(11, 4))

@@ -13,7 +13,7 @@ import pytest
 import cubecam as cc
 from tests.helpers import DEVICE
 
-zarr = pytest.importorskip("zarr", minversion="3.1.3")  # Python 3.10 has only zarr 2
+zarr = pytest.importorskip("zarr", minversion="3.1.6")  # Python 3.10 has only zarr 2
 
 OUTPUTS = ("distance", "z", "normal", "position", "id", "label")
 MARK = "uniform vec3 tone; out vec2 heat; vec3 shade(Surface s) { heat = s.uv; return tone; }"

@@ -108,7 +108,10 @@ def test_a_batch_is_shared_by_dlpack_and_may_be_written(name):
     assert np.shares_memory(got, batch.faces)
     old = np.from_dlpack(OldReader(batch))
     assert np.shares_memory(old, batch.faces)
-    got[1] = 3
-    assert (batch.faces[1] == 3).all()
+    if (
+        np.lib.NumpyVersion(np.__version__) >= "2.1.0"
+    ):  # older ones mark all that they read as read-only
+        got[1] = 3
+        assert (batch.faces[1] == 3).all()
     with pytest.raises(BufferError, match=r"expected main memory, \(1, 0\), got \(2, 0\)"):
         batch.__dlpack__(dl_device=(2, 0))

@@ -8,7 +8,7 @@ from click.testing import CliRunner
 
 import cubecam as cc
 
-pytest.importorskip("zarr", minversion="3.1.3")  # Python 3.10 has only zarr 2
+pytest.importorskip("zarr", minversion="3.1.6")  # Python 3.10 has only zarr 2
 
 SCRIPT = """
 import cubecam as cc

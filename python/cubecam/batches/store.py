@@ -45,12 +45,12 @@ def need_zarr(caller: str) -> Any:
         import zarr
     except ImportError as error:
         raise ImportError(
-            f"{caller}() needs zarr 3 (and Python 3.11 or newer): pip install 'zarr>=3.1.3'"
+            f"{caller}() needs zarr 3 (and Python 3.11 or newer): pip install 'zarr>=3.1.6'"
         ) from error
     if int(zarr.__version__.partition(".")[0]) < 3:
         raise ImportError(
             f"{caller}() needs zarr 3 (and Python 3.11 or newer), got zarr {zarr.__version__}: "
-            "pip install 'zarr>=3.1.3'"
+            "pip install 'zarr>=3.1.6'"
         )
     return zarr
 
