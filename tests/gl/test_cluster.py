@@ -104,6 +104,16 @@ def test_a_pool_writes_the_same_files(way, scene, whole, tmp_path):
     assert files_of(tmp_path / "a.zarr") == files_of(whole)
 
 
+def test_nodes_that_can_be_read_once_are_left_out_by_a_pool_too(tmp_path, scene):
+    box = next(node for node in scene.nodes if node.name == "box")
+    made = [
+        write(scene, tmp_path / f"{number}.zarr", exclude=iter([box]), workers=workers)
+        for number, workers in enumerate((None, 1))
+    ]
+    assert not (made[0].outputs["id"][...] == box.id).any()
+    np.testing.assert_array_equal(made[0].outputs["id"][...], made[1].outputs["id"][...])
+
+
 def test_rotations_excluded_nodes_and_a_store_in_memory(scene, renderer):
     (box,) = scene.find("box")
     store = zarr.storage.MemoryStore()

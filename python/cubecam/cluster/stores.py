@@ -186,10 +186,10 @@ def capture_to_zarr(
         elif client is not None:
             _by_client(client, plan, job, todo, advance, resources)
         elif pool is not None:
-            _by_pool(pool, scene, exclude, plan, job, todo, advance)
+            _by_pool(pool, scene, plan, job, todo, advance)
         elif workers is not None:
             with Pool(workers) as made:
-                _by_pool(made, scene, exclude, plan, job, todo, advance)
+                _by_pool(made, scene, plan, job, todo, advance)
         else:
             for number in todo:
                 _write(job, number, draw(plan.payload, plan.hash, plan.part(number), plan.layout))
@@ -341,7 +341,6 @@ def _end(group: zarr.Group, place: Any, path: Path | None) -> None:
 def _by_pool(
     pool: Pool,
     scene: Scene,
-    exclude: Iterable[Node],
     plan: Plan,
     job: _Job,
     todo: list[int],
@@ -356,7 +355,7 @@ def _by_pool(
         scene,
         plan.work.positions[rows],
         rotations=None if turns is None else turns[rows],
-        exclude=exclude,
+        exclude=plan.work.left_out(scene),
         progress=False,
         **plan.work.options,
     )

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from .._core import Renderer, Scene, _CaptureBatch, _RenderBatch
+from .._core import Node, Renderer, Scene, _CaptureBatch, _RenderBatch
 from ..batches.captures import check_same_kind, scene_of
 from .memory import Arrays, Layout
 
@@ -43,12 +43,20 @@ class Captures:
         turned = None if self.rotations is None else self.rotations[some]
         return replace(self, positions=self.positions[some], rotations=turned)
 
+    def left_out(self, scene: Scene) -> list[Node]:
+        """Give the nodes of the scene that are left out."""
+        return [node for node in scene.nodes if node.id in self.exclude] if self.exclude else []
+
     def draw(self, renderer: Renderer, things: Any, arrays: Arrays) -> None:
         """Draw the places one part after the other."""
         scene: Scene = things
-        left_out = [node for node in scene.nodes if node.id in self.exclude] if self.exclude else []
         batch = _CaptureBatch(
-            renderer, scene, self.positions, self.rotations, exclude=left_out, **self.options
+            renderer,
+            scene,
+            self.positions,
+            self.rotations,
+            exclude=self.left_out(scene),
+            **self.options,
         )
         for first in range(0, len(batch), batch.most_cubes):
             _draw(batch, first, [array[first : first + batch.most_cubes] for array in arrays])
