@@ -1,4 +1,4 @@
-"""Cubemaps of a field by a loop in C++ over OpenGL calls, which a compiler makes when it is first asked for."""
+"""Cubemaps of a field, drawn by a loop in C++ that calls OpenGL. The first use compiles it."""
 
 from __future__ import annotations
 

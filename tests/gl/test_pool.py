@@ -779,7 +779,7 @@ def test_the_end_of_the_interpreter():
 
 @pytest.mark.slow
 def test_functions_of_scripts(tmp_path):
-    """A function of the program's own script is found by importing the script; one without the guard is told so."""
+    """A function of a script is found by importing the script; one that lacks the guard gets an error that says so."""
     script = f"""
 import cubecam as cc
 

@@ -22,6 +22,7 @@ __all__ = [
     "check_same_kind",
     "floats_of",
     "iter_captures",
+    "listed",
     "places_of",
     "scene_of",
 ]
@@ -358,6 +359,13 @@ def places_of(position: npt.ArrayLike, count: int) -> npt.NDArray[np.float64]:
 
 def _described(kinds: list[Any], encoding: str) -> str:
     return f"outputs {[name for name, _, _ in kinds]} and {encoding!r}"
+
+
+def listed(values: Any) -> Any:
+    """Give a list of what can be read once; what cannot be read is refused by the core."""
+    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
+        return values
+    return list(values)
 
 
 def floats_of(value: npt.ArrayLike | None) -> npt.NDArray[np.float64] | None:

@@ -220,7 +220,7 @@ class CubeMapBatch:
             ``color`` with dims probe, face, row, column, channel, and each output; they share the batch's memory.
             Coordinates: ``face`` ("+x" to "-z"), ``channel``, and, where the batch knows them, ``x``, ``y``, ``z`` and
             ``rotation`` of each probe; ``place_x``, ``place_y`` and ``place_z`` if an output has one of these names. A
-            batch of `open_batch` is read as a whole; ``xarray.open_zarr`` of its store reads what is asked for.
+            batch of `open_batch` is read as a whole; ``xarray.open_zarr`` of its store reads the parts that are used.
 
         Raises
         ------

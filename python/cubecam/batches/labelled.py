@@ -15,7 +15,16 @@ if TYPE_CHECKING:
 
     from .frames import FrameBatch
 
-__all__ = ["CUBES", "FRAMES", "Labels", "Named", "dataset", "labels_of", "names_of_places"]
+__all__ = [
+    "CUBES",
+    "FRAMES",
+    "Labels",
+    "Named",
+    "dataset",
+    "labelled_dataset",
+    "labels_of",
+    "names_of_places",
+]
 
 #: The axes of the numbers of cubemaps and of frames, before those of one texel or pixel.
 CUBES = ("probe", "face", "row", "column")
@@ -123,10 +132,16 @@ def _meaning(name: str) -> dict[str, Any]:
 def dataset(batch: CubeMapBatch | FrameBatch, scene_hash: str | None) -> xarray.Dataset:
     """Make the dataset of a batch; see `CubeMapBatch.to_xarray`."""
     try:
-        import xarray
+        import xarray  # noqa: F401
     except ImportError as error:
         raise ImportError("to_xarray() needs xarray: pip install xarray") from error
-    labels = labels_of(batch, scene_hash)
+    return labelled_dataset(labels_of(batch, scene_hash))
+
+
+def labelled_dataset(labels: Labels) -> xarray.Dataset:
+    """Make a dataset of what the labels name."""
+    import xarray
+
     return xarray.Dataset(
         {name: (row.axes, row.values, row.attributes) for name, row in labels.variables.items()},
         {name: (row.axes, row.values, row.attributes) for name, row in labels.coordinates.items()},

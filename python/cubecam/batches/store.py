@@ -31,7 +31,19 @@ if TYPE_CHECKING:
     import zarr
     from zarr.abc.store import Store
 
-__all__ = ["fill", "group_of", "make_store", "need_zarr", "open_batch", "path_of", "write_batch"]
+__all__ = [
+    "drawn_places",
+    "fill",
+    "finish",
+    "group_of",
+    "is_group",
+    "make_store",
+    "need_zarr",
+    "open_batch",
+    "path_of",
+    "replacing",
+    "write_batch",
+]
 
 #: What the layout of the store is called in its attributes; another number means another layout.
 LAYOUT = 1
@@ -111,14 +123,19 @@ def _new_store(store: Any, path: Path | None, overwrite: bool) -> Iterator[Any]:
         yield str(draft)
 
 
-def _refuse_group(store: Any, overwrite: bool) -> None:
+def is_group(store: Any) -> bool:
+    """Say whether a store of zarr, or an address, holds a group."""
     import zarr
 
     try:
         zarr.open_group(store, mode="r")
     except (FileNotFoundError, ValueError):
-        return
-    if not overwrite:
+        return False
+    return True
+
+
+def _refuse_group(store: Any, overwrite: bool) -> None:
+    if is_group(store) and not overwrite:
         raise FileExistsError(
             errno.EEXIST, "expected an empty store, or overwrite=True, got a group", str(store)
         )
@@ -279,8 +296,8 @@ def finish(group: zarr.Group) -> None:
 def open_batch(store: str | os.PathLike[str] | Store, *, incomplete: bool = False) -> Any:
     """Open a batch that `CubeMapBatch.to_zarr`, `FrameBatch.to_zarr` or `cubecam.cluster.capture_to_zarr` wrote.
 
-    Nothing is read until it is asked for: `faces`, `color` and the outputs of the batch are arrays of zarr, which give
-    arrays of numpy when they are indexed. ``batch[i]`` reads one cubemap, ``batch[2:5]`` some, ``batch[:]`` all, as a
+    Opening reads no pictures: `faces`, `color` and the outputs of the batch are arrays of zarr, which read what is
+    indexed and give arrays of numpy. ``batch[i]`` reads one cubemap, ``batch[2:5]`` some, ``batch[:]`` all, as a
     batch in memory.
 
     Parameters

@@ -12,10 +12,10 @@ import numpy.typing as npt
 
 from .._calls import checked_call
 from .._core import Node, Scene
-from ..batches.labelled import Labels
+from ..batches.labelled import labelled_dataset
 from ..typing import DepthFormat, DepthOrder, Format
 from .plan import Plan, plan_of
-from .worker import draw
+from .worker import draw, same_bytes
 
 if TYPE_CHECKING:
     import dask.array
@@ -156,7 +156,6 @@ def capture_dataset(
     (1.0, {'probe': 10, 'face': 6, 'row': 8, 'column': 8})
     """
     _need_dask("capture_dataset")
-    import xarray
 
     options: dict[str, Any] = {
         "size": size,
@@ -171,13 +170,10 @@ def capture_dataset(
         "max_lod_error": max_lod_error,
     }
     plan = plan_of(scene, positions, rotations, exclude, chunk, options)
-    labels: Labels = plan.labels()
-    arrays = _arrays(plan)
-    return xarray.Dataset(
-        {name: (row.axes, arrays[name], row.attributes) for name, row in labels.variables.items()},
-        {name: (row.axes, row.values, row.attributes) for name, row in labels.coordinates.items()},
-        labels.attributes,
-    )
+    labels = plan.labels()
+    for name, array in _arrays(plan).items():
+        labels.variables[name].values = array
+    return labelled_dataset(labels)
 
 
 def _need_dask(caller: str) -> None:
@@ -199,7 +195,7 @@ def _arrays(plan: Plan) -> dict[str, dask.array.Array]:
     mark = hashlib.sha256(f"{plan.hash} {request}".encode()).hexdigest()[:32]
     scene, drawn = f"cubecam-scene-{plan.hash}", f"cubecam-captures-{mark}"
     layers: dict[str, Any] = {
-        scene: {scene: (_same_bytes, plan.payload)},
+        scene: {scene: (same_bytes, plan.payload)},
         drawn: {
             (drawn, number): (draw, scene, plan.hash, plan.part(number), list(plan.layout))
             for number in range(plan.chunks)
@@ -224,11 +220,6 @@ def _arrays(plan: Plan) -> dict[str, dask.array.Array]:
         chunks = (lengths, *((length,) for length in shape))
         made[name] = dask.array.Array(graph, key, chunks, dtype=dtype)
     return made
-
-
-def _same_bytes(payload: bytes) -> bytes:
-    """Hold the scene where it is needed."""
-    return payload
 
 
 def draw_nothing(at: int, layout: Any) -> Any:

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from .._checks import text_of, whole_number
 from .._core import Node, Scene, _CaptureBatch
 from .._scene_hash import scene_hash
-from ..batches.captures import check_batch_room, floats_of
+from ..batches.captures import check_batch_room, floats_of, listed
 from ..batches.cubemaps import CubeMapBatch
 from ..batches.labelled import Labels, labels_of
 from ..pool.memory import Layout
@@ -88,8 +88,8 @@ def plan_of(
     if not isinstance(scene, Scene):
         raise TypeError(f"scene: expected a Scene, got {text_of(scene)}")
     places_of_chunk = whole_number(chunk, "chunk", 1)
-    left_out = _listed(exclude)
-    options = {**options, "outputs": _listed(options["outputs"])}
+    left_out = listed(exclude)
+    options = {**options, "outputs": listed(options["outputs"])}
     with renderer_of_process() as renderer:
         batch = _CaptureBatch(renderer, scene, positions, rotations, exclude=left_out, **options)
         check_batch_room(batch, min(places_of_chunk, len(batch)))
@@ -118,13 +118,6 @@ def plan_of(
         encoding,
         request,
     )
-
-
-def _listed(values: Any) -> Any:
-    """Give a list of what can be read once; what cannot be read is refused by the core."""
-    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
-        return values
-    return list(values)
 
 
 def _plain(value: Any) -> Any:

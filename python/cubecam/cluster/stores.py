@@ -23,7 +23,7 @@ import numpy.typing as npt
 
 from .._calls import checked_call
 from .._checks import text_of, whole_number
-from .._core import Error, Node, Scene
+from .._core import Error, Node, Scene, __version__
 from .._progress import bar
 from ..batches.cubemaps import CubeMapBatch
 from ..batches.labelled import Named
@@ -31,6 +31,7 @@ from ..batches.store import (
     drawn_places,
     finish,
     group_of,
+    is_group,
     make_store,
     need_zarr,
     open_batch,
@@ -42,7 +43,7 @@ from ..pool.pool import Pool
 from ..pool.work import Captures
 from ..typing import DepthFormat, DepthOrder, Format
 from .plan import Plan, plan_of
-from .worker import draw
+from .worker import draw, same_bytes
 
 if TYPE_CHECKING:
     import zarr
@@ -213,8 +214,6 @@ class _Job:
 
 def _mark(plan: Plan) -> dict[str, Any]:
     """Give the attributes by which a store is known again."""
-    from .._core import __version__
-
     return {
         "source": f"cubecam {__version__}",
         "scene_hash": plan.hash,
@@ -236,7 +235,7 @@ def _check_client(client: Any) -> None:
 
 def _begun(place: Any, path: Path | None, plan: Plan, resume: bool, overwrite: bool) -> zarr.Group:
     """Open the store of this plan, or make it."""
-    there = os.path.lexists(place) if path is not None else _is_group(place)
+    there = os.path.lexists(place) if path is not None else is_group(place)
     if there and not overwrite:
         if not resume:
             raise FileExistsError(
@@ -260,16 +259,6 @@ def _begun(place: Any, path: Path | None, plan: Plan, resume: bool, overwrite: b
             raise
         # Another process has begun it in the meantime.
     return _same(place, plan)
-
-
-def _is_group(store: Any) -> bool:
-    import zarr
-
-    try:
-        zarr.open_group(store, mode="r")
-    except (FileNotFoundError, ValueError):
-        return False
-    return True
 
 
 def _same(place: Any, plan: Plan) -> zarr.Group:
@@ -404,7 +393,7 @@ def _by_client(
     try:
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", message="Sending large graph")
-            payload = client.submit(_same_bytes, plan.payload, key=name, pure=False)
+            payload = client.submit(same_bytes, plan.payload, key=name, pure=False)
         ahead = max(_LEAST, _AHEAD * sum(client.nthreads().values()))
         under_way |= {submit(number) for number in itertools.islice(waiting, ahead)}
         done = as_completed(list(under_way))
@@ -436,11 +425,6 @@ def _lost(job: _Job, error: BaseException) -> Error:
         f"{job.store}: the cluster was lost or gave up ({error!r}); what is finished stays, and the same call goes on "
         "with it"
     )
-
-
-def _same_bytes(payload: bytes) -> bytes:
-    """Hold the scene on a worker."""
-    return payload
 
 
 def _draw_and_write(payload: bytes, job: _Job, number: int, work: Captures) -> int:

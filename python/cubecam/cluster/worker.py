@@ -16,7 +16,7 @@ from .._core import ContextError, Device, Renderer, devices
 from ..pool.memory import Arrays, Layout
 from ..pool.work import Captures
 
-__all__ = ["device_of_worker", "draw", "renderer_of_process"]
+__all__ = ["device_of_worker", "draw", "renderer_of_process", "same_bytes"]
 
 #: How many scenes a process keeps, the last ones used.
 _SCENES = 4
@@ -87,6 +87,11 @@ def draw(payload: bytes, scene_hash: str, work: Captures, layout: Layout) -> Arr
     if len(work.positions):
         _desk.draw(payload, scene_hash, work, arrays)
     return arrays
+
+
+def same_bytes(payload: bytes) -> bytes:
+    """Hold a scene where it is needed: a task that the scheduler can make again, unlike data that were sent."""
+    return payload
 
 
 def device_of_worker() -> str | Device:

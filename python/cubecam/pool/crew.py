@@ -89,7 +89,7 @@ class Crew:
 
     @contextmanager
     def pieces(self, call: Call) -> Iterator[Iterator[Piece]]:
-        """Draw a call, and give its pieces in order; each is done with when the next is asked for.
+        """Draw a call, and give its pieces in order; the caller has read a piece when it takes the next one.
 
         At the end of the block the call is done or dropped; after a Ctrl-C the processes that draw it are killed.
         """

@@ -27,7 +27,7 @@ from .._core import (
     _RenderBatch,
 )
 from .._progress import bar
-from ..batches.captures import check_batch_room, floats_of, places_of, scene_of
+from ..batches.captures import check_batch_room, floats_of, listed, places_of, scene_of
 from ..batches.cubemaps import CubeMapBatch
 from ..batches.frames import FrameBatch
 from ..batches.renders import cameras_of
@@ -366,7 +366,7 @@ class Pool:
         """
         seen_by = cameras_of(cameras)
         options: dict[str, Any] = {
-            "outputs": _listed(outputs),
+            "outputs": listed(outputs),
             "format": format,
             "samples": samples,
             "exposure": exposure,
@@ -376,7 +376,7 @@ class Pool:
             "screen_reflections": screen_reflections,
             "max_lod_error": max_lod_error,
         }
-        passes = _listed(effects)
+        passes = listed(effects)
         batch = _RenderBatch(self._own(), scene, seen_by, size, effects=passes, **options)
         # What may hold parts of the scene travels with it.
         alone = not passes and not any(map(_follows, seen_by))
@@ -506,7 +506,7 @@ class Pool:
         in_memory: bool,
     ) -> tuple[Call, _CaptureBatch]:
         options = _checked(options)
-        left_out = _listed(exclude)
+        left_out = listed(exclude)
         batch = _CaptureBatch(self._own(), scene, positions, rotations, exclude=left_out, **options)
         count, most = len(batch), batch.most_cubes
         if in_memory:
@@ -581,16 +581,9 @@ def _follows(camera: Camera | StereoCamera) -> bool:
     return any(getattr(eye, "parent", None) is not None for eye in eyes)
 
 
-def _listed(values: Any) -> Any:
-    """Give a list of what can be read once; what cannot be read is refused by the core."""
-    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
-        return values
-    return list(values)
-
-
 def _checked(options: dict[str, Any]) -> dict[str, Any]:
     """Give options that can be read more than once."""
-    return {**options, "outputs": _listed(options["outputs"])}
+    return {**options, "outputs": listed(options["outputs"])}
 
 
 def _cores() -> int:

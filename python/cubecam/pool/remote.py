@@ -35,7 +35,7 @@ class Remote:
 
     @contextmanager
     def pieces(self, call: Call) -> Iterator[Iterator[Piece]]:
-        """Draw a call, and give its pieces in order; each is done with when the next is asked for."""
+        """Draw a call, and give its pieces in order; the caller has read a piece when it takes the next one."""
         self._check_open()
         call.arrays = [np.empty((call.rows, *shape), dtype) for shape, dtype in call.layout]
         waiting: deque[tuple[Piece, Future[Arrays | None]]] = deque()
